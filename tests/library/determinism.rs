@@ -24,7 +24,7 @@ const LIMIT: Duration = Duration::from_secs(600);
 /// Scenes that speak with the world outside; how they go is a matter of who is there.
 const OUTSIDE: [&str; 5] = ["ros", "ws_", "zmq_", "serial_", "fetch_"];
 
-fn scenes() -> Vec<PathBuf> {
+pub(super) fn scenes() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let folders = [top.clone(), top.join("messaging")];
     let entries = folders
@@ -200,7 +200,10 @@ fn assert_same(first: &str, second: &str, scene: &Path) {
     assert!(!first.is_empty(), "{} says nothing", scene.display());
 }
 
-fn on_a_large_stack<T: Send + 'static, R: Send + 'static>(run: fn(T) -> R, input: T) -> R {
+pub(super) fn on_a_large_stack<T: Send + 'static, R: Send + 'static>(
+    run: fn(T) -> R,
+    input: T,
+) -> R {
     let thread = std::thread::Builder::new()
         .stack_size(Simulator::STACK_SIZE)
         .spawn(move || run(input));

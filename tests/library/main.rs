@@ -10,5 +10,10 @@ mod real_scenes;
 mod saving;
 mod sensing;
 mod serial;
+mod snapshots;
 mod subprocess;
 mod wrong_arguments;
+
+/// As programs declare it whose simulators can be brought back.
+#[global_allocator]
+static ALLOCATOR: swanilda::Allocator = swanilda::Allocator;

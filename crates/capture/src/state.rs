@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
+use heap::{Outer, outside};
+
 use crate::reader::{CaptureError, Reader};
 use crate::record::{Header, PIECE, Record};
 use crate::tape::Verdict;
@@ -115,17 +117,19 @@ impl Replaying {
     /// The value of the next input, which must be of that kind. `who` asks for it.
     pub(crate) fn take<T: Recorded>(&mut self, kind: &str, who: &dyn Fn() -> String) -> Option<T> {
         let value = match self.take_next()? {
-            Record::Input { kind: found, value } if self.is(found, kind) => value,
+            Record::Input { kind: found, value } if self.is(found, kind) => Outer::new(value),
             other => {
                 let found = self.described(&other);
                 self.differs(format!(
                     "{} asks for {kind}, where the capture has {found}",
                     named(who())
                 ));
+                outside(|| drop(other));
                 return None;
             }
         };
-        let mut input = Input::new(&value);
+        // The value is made where the one who asks is.
+        let mut input = Input::new(value.get());
         let read = T::read(&mut input).filter(|_| input.is_empty());
         if read.is_none() {
             self.differs(format!("the value of {kind} in the capture is none"));
@@ -238,7 +242,10 @@ impl Replaying {
 
     pub(crate) fn differs(&mut self, what: String) {
         let step = self.steps + 1;
-        self.verdict.get_or_insert(Verdict::Differs { step, what });
+        outside(|| {
+            let what = what.clone();
+            self.verdict.get_or_insert(Verdict::Differs { step, what });
+        });
     }
 
     fn take_next(&mut self) -> Option<Record> {
@@ -251,20 +258,25 @@ impl Replaying {
         if self.verdict.is_some() {
             return None;
         }
+        outside(|| self.read_on());
+        self.next.as_ref()
+    }
+
+    /// Reads until the next thing that happened, or the end.
+    fn read_on(&mut self) {
         while self.next.is_none() {
             match self.reader.next_record() {
                 Ok(Some(record)) => self.sort(record),
                 Ok(None) => {
                     self.verdict = Some(Verdict::Cut { steps: self.steps });
-                    return None;
+                    return;
                 }
                 Err(error) => {
                     self.verdict = Some(Verdict::Unreadable(error.to_string()));
-                    return None;
+                    return;
                 }
             }
         }
-        self.next.as_ref()
     }
 
     /// Keeps what others refer to; what happened is the next thing.

@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use heap::outside;
+
 use crate::reader::{CaptureError, Reader};
 use crate::record::{Header, Record};
 use crate::state::{Capturing, Replaying};
@@ -14,7 +16,10 @@ use crate::value::Recorded;
 ///
 /// What is asked for within an input (a file that a function reads, whose result is the input) is part of it and not an input of its own.
 #[derive(Clone, Default)]
-pub struct Tape(Option<Arc<Mutex<State>>>);
+pub struct Tape(
+    #[expect(clippy::redundant_allocation, reason = "see `counted_apart`")]
+    Option<Arc<Arc<Mutex<State>>>>,
+);
 
 struct State {
     mode: Mode,
@@ -79,7 +84,8 @@ impl fmt::Debug for Tape {
 /// The same tape, or both off.
 impl PartialEq for Tape {
     fn eq(&self, other: &Self) -> bool {
-        self.0.as_ref().map(Arc::as_ptr) == other.0.as_ref().map(Arc::as_ptr)
+        let place = |tape: &Self| tape.0.as_deref().map(Arc::as_ptr);
+        place(self) == place(other)
     }
 }
 
@@ -105,11 +111,16 @@ impl Tape {
     }
 
     fn new(mode: Mode) -> Self {
-        Self(Some(Arc::new(Mutex::new(State {
+        Self(Some(Arc::new(Arc::new(Mutex::new(State {
             mode,
             depth: 0,
             on_end: None,
-        }))))
+        })))))
+    }
+
+    /// The same tape, counted apart: for the memory of a simulator, which is brought back with its counts.
+    pub fn counted_apart(&self) -> Self {
+        Self(self.0.as_deref().map(|state| Arc::new(Arc::clone(state))))
     }
 
     /// Calls `on_end` at once when a replay cannot go on: the run differs, or the capture ends.
@@ -329,12 +340,15 @@ impl Tape {
             return None;
         };
         let outcome = act(replaying);
-        if let Some(verdict) = replaying.verdict.clone()
-            && let Some(mut on_end) = state.on_end.take()
-        {
-            drop(state);
-            on_end(&verdict);
-        }
+        let verdict = outside(|| replaying.verdict.clone());
+        let Some(mut on_end) = verdict.as_ref().and_then(|_| state.on_end.take()) else {
+            return Some(outcome);
+        };
+        drop(state);
+        outside(|| {
+            verdict.iter().for_each(&mut on_end);
+            drop((verdict, on_end));
+        });
         Some(outcome)
     }
 
@@ -344,7 +358,7 @@ impl Tape {
             && state.depth == 0
             && let Mode::Capturing(capturing) = &mut state.mode
         {
-            act(capturing);
+            outside(|| act(capturing));
         }
     }
 

@@ -39,8 +39,8 @@ use std::num::NonZero;
 
 use rapier3d_f64::math::Vector;
 
-use bodies::Bodies;
 pub use bodies::FormMaker;
+use bodies::{Bodies, Forms};
 pub use contact_log::Contact;
 use contact_log::ContactLog;
 use contacts::ColliderPair;
@@ -86,8 +86,8 @@ pub struct Dynamics {
     known: Option<Mark>,
     call: Option<DynamicsCall>,
     workers: Workers,
-    /// How forms are made of meshes.
-    forms: FormMaker,
+    /// The forms of meshes.
+    forms: Forms,
     /// Whether the engine has made a step since the plan was made: before it does not know new bodies.
     is_stepped: bool,
     /// Whether a joint of the engine depends on one that only the scene moves.
@@ -162,7 +162,7 @@ impl Dynamics {
     pub fn new(threads: NonZero<usize>, forms: FormMaker) -> Self {
         Self {
             workers: Workers::new(threads),
-            forms,
+            forms: Forms::new(forms),
             ..Self::default()
         }
     }
@@ -224,7 +224,7 @@ impl Dynamics {
         let plan = Plan::new(scene, &self.frozen);
         self.far = plan.far;
         self.bodies
-            .apply_plan(plan.bodies, world, scene, &self.forms);
+            .apply_plan(plan.bodies, world, scene, &mut self.forms);
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);

@@ -6,6 +6,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
+use heap::resource::Resource;
 /// Maximum size of each of the two outputs of a program.
 pub(crate) const MAX_OUTPUT: usize = 256 << 20;
 
@@ -67,7 +68,7 @@ impl Program {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()?;
-        let mut child = Process(child);
+        let mut child = Process::new(child);
         let (stdin, stdout, stderr) = (
             child.0.stdin.take(),
             child.0.stdout.take(),
@@ -86,7 +87,7 @@ impl Program {
 
     /// Starts it with the outputs of this program. Its input is open and empty.
     pub fn start(&self) -> Result<Process, ProcessError> {
-        Ok(Process(self.command()?.stdin(Stdio::piped()).spawn()?))
+        Ok(Process::new(self.command()?.stdin(Stdio::piped()).spawn()?))
     }
 
     /// Starts it detached: it outlives the simulator.
@@ -98,7 +99,17 @@ impl Program {
 }
 
 /// A program that runs, or ran. It is killed when it is dropped.
-pub struct Process(Child);
+pub struct Process(
+    Child,
+    #[expect(dead_code, reason = "it is there as long as the process")] Resource,
+);
+
+impl Process {
+    fn new(child: Child) -> Self {
+        let resource = Resource::new(|| format!("process {}", child.id()));
+        Self(child, resource)
+    }
+}
 
 impl Process {
     /// The system's identifier of the process.

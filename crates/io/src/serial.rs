@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use heap::resource::Resource;
 use serialport::ClearBuffer;
 
 /// The baud rates of CoppeliaSim.
@@ -28,6 +29,7 @@ pub struct SerialPort {
     device: Box<dyn serialport::SerialPort>,
     /// Slices without progress after which a write ends.
     max_idle_slices: u32,
+    _resource: Resource,
 }
 
 impl SerialPort {
@@ -54,6 +56,7 @@ impl SerialPort {
             path: path.to_owned(),
             device,
             max_idle_slices: max_idle_slices(baud_rate),
+            _resource: Resource::new(|| format!("the serial port {path}")),
         })
     }
 

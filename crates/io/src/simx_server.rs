@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use heap::resource::Resource;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::sync::Notify;
@@ -39,6 +40,7 @@ pub struct SimxServer {
     shared: Arc<Shared>,
     /// None only while it is dropped.
     thread: Option<JoinHandle<()>>,
+    _resource: Resource,
 }
 
 /// What both threads use.
@@ -95,6 +97,7 @@ impl SimxServer {
         Ok(Self {
             shared,
             thread: Some(thread),
+            _resource: Resource::new(|| "the server of the legacy remote API".to_owned()),
         })
     }
 

@@ -4,7 +4,8 @@
 
 mod swanilda_test;
 
-use std::sync::{Arc, LazyLock};
+use heap::Lazy;
+use std::sync::Arc;
 
 use lua_library::FILES;
 use script::{ApiError, ApiFn, ApiResult as Result, Cx, Module, Registry, functions};
@@ -53,7 +54,6 @@ pub static ALL: &[&Module] = &[
 
 /// All built-in functions and modules. Bound once per process.
 pub fn registry() -> Arc<Registry> {
-    static REGISTRY: LazyLock<Arc<Registry>> =
-        LazyLock::new(|| Arc::new(Registry::new(ALL, FILES)));
+    static REGISTRY: Lazy<Arc<Registry>> = Lazy::new(|| Arc::new(Registry::new(ALL, FILES)));
     REGISTRY.clone()
 }

@@ -44,6 +44,14 @@ enum Scope<T> {
 }
 
 impl<T: Clone> Scope<T> {
+    /// The same, counted apart.
+    fn counted_apart(&self) -> Self {
+        match self {
+            Self::Everything => Self::Everything,
+            Self::Only(items) => Self::Only(Arc::new(items.to_vec())),
+        }
+    }
+
     fn nothing() -> Self {
         Self::Only(Arc::default())
     }
@@ -63,6 +71,17 @@ impl Default for Permissions {
 }
 
 impl Permissions {
+    /// The same, with nothing that is counted in common: for the memory of a simulator, which is brought back with its counts.
+    pub fn counted_apart(&self) -> Self {
+        Self {
+            read: self.read.counted_apart(),
+            write: self.write.counted_apart(),
+            network: self.network.counted_apart(),
+            tape: self.tape.counted_apart(),
+            ..*self
+        }
+    }
+
     /// Everything.
     pub fn all() -> Self {
         Self {

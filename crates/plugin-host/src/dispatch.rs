@@ -1,6 +1,6 @@
 //! A call of a plugin: its parameters become values, the function is called, the results are written where C wants them.
 
-use std::sync::LazyLock;
+use heap::Lazy;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::current::{Frame, current};
@@ -29,7 +29,7 @@ enum Target {
     Missing,
 }
 
-static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
+static BOUND: Lazy<Vec<Bound>> = Lazy::new(|| {
     let target = |row: &Symbol| match functions::find(row.function) {
         Some(function) => Target::Own(function),
         None if row.function.starts_with("sim.") => Target::Api(row.function),

@@ -24,6 +24,7 @@ use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
 pub use dispatch::symbols;
+use heap::resource::Resource;
 use scene::Data;
 use scene::numbers;
 
@@ -65,6 +66,7 @@ pub struct Plugin {
     /// Calls in progress.
     calls: Cell<usize>,
     _claim: Claim,
+    _resource: Resource,
 }
 
 /// A function for scripts.
@@ -213,6 +215,7 @@ impl Plugins {
             infos: RefCell::default(),
             calls: Cell::new(0),
             _claim: claim,
+            _resource: Resource::new(|| format!("the memory of the plugin {name}")),
         });
         let version = self.run(host, &plugin, "simInit", |plugin| {
             plugin.library.start(&plugin.name, own_library)

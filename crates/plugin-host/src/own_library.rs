@@ -16,7 +16,9 @@ const LIBRARY: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/libswanilda_plu
 /// Why there are no plugins here.
 pub(super) fn connected() -> Result<&'static Path, String> {
     static PATH: OnceLock<Result<PathBuf, String>> = OnceLock::new();
-    PATH.get_or_init(connect).as_deref().map_err(Clone::clone)
+    PATH.get_or_init(|| heap::outside(connect))
+        .as_deref()
+        .map_err(Clone::clone)
 }
 
 fn connect() -> Result<PathBuf, String> {

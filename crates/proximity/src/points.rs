@@ -1,6 +1,6 @@
 //! Sets of points.
 
-use std::sync::LazyLock;
+use heap::Lazy;
 
 use geometry::MAX_COORDINATE;
 
@@ -9,8 +9,8 @@ use crate::primitive::Vector;
 use crate::tree::Tree;
 
 /// The single point of [`crate::Geometry::Point`].
-pub(crate) static ORIGIN: LazyLock<PointSet> =
-    LazyLock::new(|| PointSet::new(&[[0.0; 3]]).expect("the origin is a finite point"));
+pub(crate) static ORIGIN: Lazy<PointSet> =
+    Lazy::new(|| PointSet::new(&[[0.0; 3]]).expect("the origin is a finite point"));
 
 /// Points with a tree over them.
 #[derive(Debug, Clone)]

@@ -17,6 +17,10 @@ mod worlds;
 
 use pyo3::prelude::*;
 
+/// Each simulator has memory of its own, which snapshots copy.
+#[global_allocator]
+static ALLOCATOR: swanilda::Allocator = swanilda::Allocator;
+
 #[pymodule]
 mod _swanilda {
     #[pymodule_export]
@@ -28,7 +32,7 @@ mod _swanilda {
     #[pymodule_export]
     use crate::module::{Function, Module};
     #[pymodule_export]
-    use crate::simulator::Simulator;
+    use crate::simulator::{Simulator, Snapshot};
     #[pymodule_export]
     use crate::worlds::{close_all, forget_after_fork};
 

@@ -20,6 +20,11 @@ pub struct MainProgram {
 }
 
 impl NativeScript for MainProgram {
+    fn is_stateless(&self) -> bool {
+        // Its functions are the program's, which calls the simulator.
+        true
+    }
+
     fn defines(&self, function: &str) -> bool {
         self.callables.contains(function)
     }

@@ -29,6 +29,19 @@ pub struct Simulator {
     number: u64,
 }
 
+/// A simulator as it was at a moment.
+#[pyclass(frozen, module = "swanilda._swanilda")]
+pub struct Snapshot(swanilda::Snapshot);
+
+#[pymethods]
+impl Snapshot {
+    /// Bytes that only this snapshot holds.
+    #[getter]
+    fn own_bytes(&self) -> usize {
+        self.0.own_bytes()
+    }
+}
+
 /// The type of script of that name.
 fn kind_of(name: &str) -> PyResult<ScriptKind> {
     match name {
@@ -205,6 +218,18 @@ impl Simulator {
     /// Ends the simulation, with all its clean-up.
     fn stop(&self, py: Python<'_>) -> PyResult<()> {
         self.run(py, swanilda::Simulator::stop)
+    }
+
+    /// The whole simulator as it is now, for `restore`.
+    fn snapshot(&self, py: Python<'_>) -> PyResult<Snapshot> {
+        let snapshot = self.detached(py, swanilda::Simulator::snapshot)?;
+        Ok(Snapshot(snapshot.map_err(|error| errors::plain(&error))?))
+    }
+
+    /// Brings back what the simulator was.
+    fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
+        let restored = self.detached(py, |simulator| simulator.restore(&snapshot.0))?;
+        restored.map_err(|error| errors::plain(&error))
     }
 
     /// Ends the simulator; its scripts clean up.

@@ -13,6 +13,7 @@ use crate::service::{Service, ServiceCall, ServiceServer, ServiceType};
 use crate::subscriber::{Subscriber, Subscription};
 use crate::tcpros::{Server, field, read_head, write_head};
 use crate::{Error, MessageType, Result, XmlRpcValue, http, limits, slave};
+use heap::resource::Resource;
 
 /// How a node takes part.
 #[derive(Clone, Debug)]
@@ -32,6 +33,7 @@ pub struct Node {
     shared: Arc<Shared>,
     place: Place,
     _servers: [Server; 2],
+    _resource: Resource,
 }
 
 /// What its threads share.
@@ -109,6 +111,7 @@ impl Node {
             shared,
             place,
             _servers: servers,
+            _resource: Resource::new(|| "the node of ROS 1".to_owned()),
         })
     }
 

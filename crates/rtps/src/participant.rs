@@ -6,6 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use heap::resource::Resource;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 use crate::Limits;
@@ -22,6 +23,7 @@ const BATCH: usize = 64;
 pub struct Participant {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
+    _resource: Resource,
 }
 
 struct Shared {
@@ -75,6 +77,7 @@ impl Participant {
         Ok(Self {
             thread: Some(thread.map_err(refused)?),
             shared,
+            _resource: Resource::new(|| "the node of ROS 2".to_owned()),
         })
     }
 

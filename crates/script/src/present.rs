@@ -4,6 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use heap::Outer;
+
 use super::log::RecentLine;
 use crate::clock::SimulationState;
 use crate::host::Sim;
@@ -49,7 +51,7 @@ pub type Watcher = Box<dyn FnMut(&Present<'_>)>;
 /// The watcher of a simulator.
 #[derive(Default)]
 struct Watching {
-    watcher: RefCell<Option<Watcher>>,
+    watcher: RefCell<Option<Outer<Watcher>>>,
     /// Lines of the log that were shown.
     lines: Cell<u64>,
 }
@@ -59,7 +61,7 @@ impl Sim {
     pub fn watch(&self, watcher: Option<Watcher>) {
         self.log.keep_recent();
         self.app.borrow().broadcasts.want(watcher.is_some());
-        self.watching().watcher.replace(watcher);
+        self.watching().watcher.replace(watcher.map(Outer::new));
     }
 
     fn watching(&self) -> Rc<Watching> {
@@ -126,7 +128,9 @@ impl Sim {
         let watcher = watching.watcher.take();
         if let Some(mut watcher) = watcher {
             let hash = self.state_hash();
-            self.with_present_of(Some(hash), |present| watcher(present));
+            self.with_present_of(Some(hash), |present| {
+                watcher.with_mut(|watcher| watcher(present));
+            });
             watching.watcher.replace(Some(watcher));
         }
     }

@@ -11,6 +11,7 @@ use super::log::verbosity;
 use crate::clock::SimulationState;
 use crate::host::Sim;
 use format::video::{self, VideoError, VideoFile, VideoFormat};
+use heap::resource::Resource;
 use perception::vision::{Channels, Viewpoint, first_camera};
 use scene::{Handle, Scene, SceneError};
 
@@ -88,6 +89,7 @@ struct Film {
     file: Box<dyn VideoFile>,
     from: Viewpoint,
     format: VideoFormat,
+    _resource: Resource,
 }
 
 impl Recorder {
@@ -163,6 +165,7 @@ impl Film {
             file: video::create(&options.file, format)?,
             from,
             format,
+            _resource: Resource::new(|| format!("the video {}", options.file.display())),
         })
     }
 

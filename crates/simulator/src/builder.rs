@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::{NativeLanguage, NativeScripts, Simulator};
+use super::{NativeLanguage, NativeScripts, Parts, Simulator};
+use heap::Contained;
 use permissions::Permissions;
 use script::{
     Console, Debugger, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim,
@@ -112,18 +113,35 @@ impl Builder {
 
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
-        let native_scripts = Rc::<NativeScripts>::default();
-        let lua = LuaLanguage::new(self.modules);
-        let languages = Languages::new(vec![
-            Box::new(lua.clone()),
-            Box::new(PythonLanguage::new(lua, self.python)),
-            Box::new(NativeLanguage(Rc::clone(&native_scripts))),
-        ]);
-        let sim = Sim::new(self.options, modules::registry(), self.console, languages);
-        if let Some(debugger) = self.debugger {
-            // The simulator was just made, so it has none.
-            let _ = sim.scripts.debugger.set(debugger);
-        }
-        Simulator::with_main_and_sandbox(sim, native_scripts)
+        let Self {
+            options,
+            console,
+            modules,
+            python,
+            debugger,
+        } = self;
+        let parts = Contained::new(|| {
+            let native_scripts = Rc::<NativeScripts>::default();
+            let lua = LuaLanguage::new(modules);
+            let languages = Languages::new(vec![
+                Box::new(lua.clone()),
+                Box::new(PythonLanguage::new(lua, python)),
+                Box::new(NativeLanguage(Rc::clone(&native_scripts))),
+            ]);
+            let inner = Options {
+                permissions: options.permissions.counted_apart(),
+                ..options.clone()
+            };
+            let sim = Sim::new(inner, modules::registry(), console, languages);
+            if let Some(debugger) = debugger {
+                // The simulator was just made, so it has none.
+                let _ = sim.scripts.debugger.set(debugger);
+            }
+            Parts {
+                sim,
+                native_scripts,
+            }
+        });
+        Simulator::with_main_and_sandbox(parts, options)
     }
 }

@@ -3,6 +3,7 @@
 use std::rc::{Rc, Weak};
 
 use super::Error;
+use heap::{Handle, enter_and_copy};
 use scene::Data;
 use script::{ApiError, Member, Script, Sim, SimulationState, is_short};
 
@@ -13,7 +14,8 @@ const HELPER: &str = "swanilda.calls";
 #[derive(Clone)]
 pub struct Caller {
     sim: Weak<Sim>,
-    script: Rc<Script>,
+    script: i64,
+    heap: Option<Handle>,
 }
 
 /// A name of a module or a global function, looked up once for many calls.
@@ -69,16 +71,18 @@ impl ApiFunction {
 }
 
 impl Caller {
-    pub(super) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
+    /// Calls in the name of that script; made in the memory of the simulator.
+    pub(super) fn new(sim: &Rc<Sim>, script: i64) -> Self {
         Self {
             sim: Rc::downgrade(sim),
-            script: Rc::clone(script),
+            script,
+            heap: Handle::current(),
         }
     }
 
     /// The handle of the script.
     pub fn handle(&self) -> i64 {
-        self.script.id
+        self.script
     }
 
     /// Simulated time, seconds; 0 when the simulator is gone.
@@ -124,9 +128,10 @@ impl Caller {
     /// # Errors
     /// The error of the function, with the text that scripts receive; or when there is no such function.
     pub fn call(&self, function: &ApiFunction, args: &[Data]) -> Result<Vec<Data>, Error> {
-        let sim = self.sim()?;
         if !function.is_lua() {
-            return Ok(sim.call_member(&self.script, function.member, &function.name, args)?);
+            return self.inside(|sim, script| {
+                sim.call_member(script, function.member, &function.name, args)
+            });
         }
         self.helper("call", &function.name, args)
     }
@@ -253,10 +258,23 @@ impl Caller {
     }
 
     fn library(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
-        let results = self
-            .sim()?
-            .call_library_function(&self.script, HELPER, function, args);
-        results.map_err(|error| Error::Api(without_place(error)))
+        self.inside(|sim, script| {
+            let results = sim.call_library_function(script, HELPER, function, args);
+            results.map_err(without_place)
+        })
+    }
+
+    /// Runs `work` in the memory of the simulator, with the script; what it returns is copied out.
+    fn inside<T: Clone>(
+        &self,
+        work: impl FnOnce(&Rc<Sim>, &Rc<Script>) -> Result<T, ApiError>,
+    ) -> Result<T, Error> {
+        let sim = self.sim()?;
+        enter_and_copy(self.heap, || {
+            let script = sim.script(self.script).ok_or(ApiError::NoSuchScript)?;
+            work(&sim, &script)
+        })
+        .map_err(Error::Api)
     }
 }
 

@@ -4,7 +4,9 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::{Rc, Weak};
 use std::sync::atomic::Ordering;
 
+use crate::memory::Parts;
 use crate::{ScriptRef, Simulator};
+use heap::Contained;
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Data, Kind};
 use script::{
@@ -253,14 +255,18 @@ impl Fixture {
         ];
         let console = Box::new(Errors(Rc::clone(&errors)));
         let sim = Sim::new(
-            options,
+            options.clone(),
             modules::registry(),
             console,
             Languages::new(languages),
         );
         let _ = shared.sim.set(Rc::downgrade(&sim));
+        let parts = Contained::new(|| Parts {
+            sim,
+            native_scripts: Rc::default(),
+        });
         Self {
-            simulator: Simulator::with_main_and_sandbox(sim, Rc::default()),
+            simulator: Simulator::with_main_and_sandbox(parts, options),
             shared,
             errors,
         }
@@ -427,23 +433,25 @@ fn hooks_run_and_functions_are_released() {
     let robot = fixture.add("robot", "rust", "robot");
     fixture.simulator.step(1);
     fixture.take_lines();
-    let sim = Rc::clone(&fixture.simulator.sim);
+    let sim = Rc::clone(&fixture.simulator.parts.sim);
+    let script = fixture.simulator.found(robot.handle());
+    let script = script.expect("it is there");
     let hook = [
         Data::text("sysCall_actuation"),
         Data::text("before"),
         Data::Bool(true),
     ];
-    sim.call_api(&robot.0, "registerScriptFuncHook", &hook)
+    sim.call_api(&script, "registerScriptFuncHook", &hook)
         .expect("it is registered");
     fixture.simulator.step(1);
     assert_eq!(fixture.take_lines(), ["thread", "hook", "actuation"]);
 
     let function = HeldFunction::new(
-        &robot.0.current_runtime().expect("it runs").env,
+        &script.current_runtime().expect("it runs").env,
         FunctionRef::new(1),
     );
     let handler = Handler::Function(function);
-    assert_eq!(sim.call_handler(&robot.0, &handler, &[]), Some(Vec::new()));
+    assert_eq!(sim.call_handler(&script, &handler, &[]), Some(Vec::new()));
     drop(handler);
     assert_eq!(fixture.take_lines(), ["actuation", "released 1"]);
 }

@@ -7,6 +7,7 @@ pub mod hash_file;
 mod journal_tests;
 #[cfg(test)]
 mod language_tests;
+mod memory;
 mod native_script;
 #[cfg(test)]
 mod native_tests;
@@ -19,7 +20,7 @@ mod state_hash_tests;
 mod ui;
 mod viewing;
 
-use std::cell::{Ref, RefMut};
+use std::cell::Ref;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::rc::Rc;
@@ -29,11 +30,14 @@ use ::scene::{Data, Handle, Kind, Scene};
 pub use capture::Tape;
 use format::scene_file::SceneFile;
 use format::script_file;
+use heap::Contained;
 use script::coverage::LineCounts;
-use script::{ApiError, Detached, SceneSource, Script, Sim, SysCall, TestBench};
+use script::{ApiError, Detached, SceneSource, Script, SysCall, TestBench};
 
 pub use builder::Builder;
 pub use caller::{ApiFunction, Caller, ModuleMember, Progress};
+use memory::Parts;
+pub use memory::{SceneMut, Snapshot};
 use native_script::{NativeLanguage, NativeScripts};
 pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
@@ -56,6 +60,9 @@ pub enum Error {
     /// A file cannot be read.
     #[error("{0}")]
     Unreadable(String),
+    /// There is no snapshot, or it cannot be brought back.
+    #[error("{0}")]
+    NoSnapshot(String),
 }
 
 /// Type of script made from a file.
@@ -74,13 +81,13 @@ pub enum ScriptKind {
 }
 
 /// A script of a simulator.
-#[derive(Clone)]
-pub struct ScriptRef(Rc<Script>);
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ScriptRef(i64);
 
 impl ScriptRef {
     /// The handle scripts know it by.
     pub fn handle(&self) -> i64 {
-        self.0.id
+        self.0
     }
 }
 
@@ -88,8 +95,9 @@ impl ScriptRef {
 ///
 /// Deep recursion in scripts takes native stack: run a simulator on a thread with [`Simulator::STACK_SIZE`] bytes of it.
 pub struct Simulator {
-    sim: Rc<Sim>,
-    native_scripts: Rc<NativeScripts>,
+    parts: Contained<Parts>,
+    /// What the options of the parts share with the program is dropped outside of their memory.
+    _options: Options,
 }
 
 impl Simulator {
@@ -111,7 +119,13 @@ impl Simulator {
         Builder::default()
     }
 
-    fn with_main_and_sandbox(sim: Rc<Sim>, native_scripts: Rc<NativeScripts>) -> Self {
+    /// The simulator of these parts; main script and sandbox are added.
+    fn with_main_and_sandbox(parts: Contained<Parts>, options: Options) -> Self {
+        let simulator = Self {
+            parts,
+            _options: options,
+        };
+        let sim = simulator.inside();
         let main_text = sim.modules.registry.main_script();
         sim.scripts.add_detached(
             ScriptType::Main,
@@ -122,17 +136,15 @@ impl Simulator {
             Detached::of_text("sandboxScript", b"sim = require 'sim'"),
         );
         sim.deliver(&sandbox, SysCall::Init, &[]);
-        Self {
-            sim,
-            native_scripts,
-        }
+        drop((sandbox, sim));
+        simulator
     }
 
     /// A simulator with the default scene that runs tests: what they see of it and leave behind is on `bench`. They are chunks of the sandbox.
     pub fn for_test(options: Options, bench: &Rc<TestBench>) -> Self {
         let mut sim = Self::with_console(options, bench.console());
         // Nothing else can be on the bench of a simulator that was just made, and an empty scene has room.
-        let _ = sim.sim.test_bench.set(Rc::clone(bench));
+        let _ = sim.parts.sim.test_bench.set(Rc::clone(bench));
         let _ = sim.scene_mut().add_default_objects();
         sim
     }
@@ -173,38 +185,36 @@ impl Simulator {
                 self.add_object_script(ScriptType::Simulation, language, code, file)
             }
             ScriptKind::AddOn => {
+                let sim = self.inside();
                 let detached = Detached::of_text(&format!("{name}@addOnScript"), code);
                 let detached = Detached {
                     language: language.into(),
                     ..detached
                 };
-                let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
-                script.file.replace(file);
-                self.sim.start_detached(&script);
-                Ok(ScriptRef(script))
+                let script = sim.scripts.add_detached(ScriptType::AddOn, detached);
+                script.file.replace(file.clone());
+                sim.start_detached(&script);
+                Ok(ScriptRef(script.id))
             }
             ScriptKind::Sandbox if language != "lua" => {
-                let sandbox = self.the(ScriptType::Sandbox);
-                self.sim.reset(&sandbox.0);
-                sandbox.0.detached.borrow_mut().language = language.into();
-                sandbox.0.detached.borrow_mut().code = code.to_vec();
-                sandbox.0.file.replace(file);
-                self.sim.deliver(&sandbox.0, SysCall::Init, &[]);
-                Ok(sandbox)
+                let sim = self.inside();
+                let sandbox = self.detached(ScriptType::Sandbox);
+                sim.reset(&sandbox);
+                sandbox.set_text(language, code, file.clone());
+                sim.deliver(&sandbox, SysCall::Init, &[]);
+                Ok(ScriptRef(sandbox.id))
             }
             ScriptKind::Sandbox => {
-                let sandbox = self.the(ScriptType::Sandbox);
-                self.sim
-                    .run_in(&sandbox.0, code, name, file.as_deref())
+                let sandbox = self.detached(ScriptType::Sandbox);
+                self.copied(|sim| sim.run_in(&sandbox, code, name, file.as_deref()))
                     .map_err(Error::Script)?;
-                Ok(sandbox)
+                Ok(ScriptRef(sandbox.id))
             }
             ScriptKind::Main => {
-                let main = self.the(ScriptType::Main);
-                main.0.detached.borrow_mut().language = language.into();
-                main.0.detached.borrow_mut().code = code.to_vec();
-                main.0.file.replace(file);
-                Ok(main)
+                let _inside = self.inside();
+                let main = self.detached(ScriptType::Main);
+                main.set_text(language, code, file.clone());
+                Ok(ScriptRef(main.id))
             }
         }
     }
@@ -216,31 +226,26 @@ impl Simulator {
         code: &[u8],
         file: Option<String>,
     ) -> Result<ScriptRef, Error> {
+        let sim = self.inside();
         let object = ScriptObject::new(script_type, code.to_vec(), language, false);
-        let handle = self
-            .sim
-            .scene
-            .borrow_mut()
-            .add("Script", Kind::Script(Box::new(object)))
-            .map_err(ApiError::from)?;
-        let script = self
-            .sim
-            .script(handle.raw())
-            .ok_or(ApiError::NoSuchScript)?;
-        script.file.replace(file);
+        let object = Kind::Script(Box::new(object));
+        let added = sim.scene.borrow_mut().add("Script", object);
+        let handle = added.map_err(ApiError::from)?;
+        let script = sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        script.file.replace(file.clone());
         if script_type == ScriptType::Customization {
-            self.sim.init_script(&script);
+            sim.init_script(&script);
         }
-        Ok(ScriptRef(script))
+        Ok(ScriptRef(script.id))
+    }
+
+    fn detached(&self, script_type: ScriptType) -> Rc<Script> {
+        let script = self.parts.sim.scripts.detached(script_type);
+        script.expect("main and sandbox are made with the simulator")
     }
 
     fn the(&self, script_type: ScriptType) -> ScriptRef {
-        ScriptRef(
-            self.sim
-                .scripts
-                .detached(script_type)
-                .expect("main and sandbox are made with the simulator"),
-        )
+        ScriptRef(self.detached(script_type).id)
     }
 
     /// The script object `handle`.
@@ -248,36 +253,36 @@ impl Simulator {
     /// # Errors
     /// When it is no script.
     pub fn script(&self, handle: Handle) -> Result<ScriptRef, Error> {
-        Ok(ScriptRef(
-            self.sim
-                .script(handle.raw())
-                .ok_or(ApiError::NoSuchScript)?,
-        ))
+        Ok(ScriptRef(self.found(handle.raw())?.id))
+    }
+
+    fn found(&self, script: i64) -> Result<Rc<Script>, ApiError> {
+        self.inside().script(script).ok_or(ApiError::NoSuchScript)
     }
 
     /// Path and text of the script whose errors read `[string "name"]:line:`.
     pub fn source_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
-        self.sim.code_shown_as(name)
+        self.copied(|sim| sim.code_shown_as(name))
     }
 
     /// Starts the simulation, or resumes a paused one. Its first step runs with the next [`iterate`](Self::iterate).
     pub fn start(&mut self) {
-        self.sim.start();
+        self.inside().start();
     }
 
     /// Asks for a pause.
     pub fn pause(&mut self) {
-        self.sim.pause();
+        self.inside().pause();
     }
 
     /// Asks for the end of the run: as in CoppeliaSim, three more steps follow.
     pub fn request_stop(&mut self) {
-        self.sim.stop();
+        self.inside().stop();
     }
 
     /// One iteration of the loop: a simulation step when running, an idle iteration when stopped or paused.
     pub fn iterate(&mut self) {
-        self.sim.loop_iteration();
+        self.inside().loop_iteration();
     }
 
     /// Brings a scene of CoppeliaSim into the empty scene, or adds a model to the present one.
@@ -285,11 +290,16 @@ impl Simulator {
     /// # Errors
     /// When there is no room for all objects.
     pub fn load(&mut self, file: SceneFile) -> Result<(), Error> {
-        if file.is_model() {
-            self.sim.load_model_file(file)?;
-        } else {
-            self.sim.fill_scene(SceneSource::File(Box::new(file)))?;
-        }
+        self.copied(|sim| {
+            // Copied into the memory of the simulator.
+            let copied = file.copied();
+            let file = copied.map_err(|error| ApiError::Other(error.to_string()))?;
+            if file.is_model() {
+                sim.load_model_file(file).map(drop)
+            } else {
+                sim.fill_scene(SceneSource::File(Box::new(file)))
+            }
+        })?;
         Ok(())
     }
 
@@ -301,7 +311,7 @@ impl Simulator {
             .map(::scene::Object::handle)
             .collect();
         // The handles were just read, so none is unknown or given twice.
-        let _ = self.sim.remove_objects(&all);
+        let _ = self.inside().remove_objects(&all);
     }
 
     /// Starts if necessary and runs `count` simulation steps, fewer when a script ends the run.
@@ -327,37 +337,37 @@ impl Simulator {
 
     /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
-        self.sim.clock.state()
+        self.parts.sim.clock.state()
     }
 
     /// The tape on which everything comes from outside: off, unless the permissions of the options have another.
     pub fn tape(&self) -> &Tape {
-        self.sim.options.permissions.tape()
+        self.parts.sim.options.permissions.tape()
     }
 
     /// Simulated time, seconds.
     pub fn time(&self) -> f64 {
-        self.sim.clock.time()
+        self.parts.sim.clock.time()
     }
 
     /// Steps since the start.
     pub fn steps(&self) -> u64 {
-        self.sim.clock.steps()
+        self.parts.sim.clock.steps()
     }
 
     /// Number of uncaught script errors.
     pub fn errors(&self) -> u64 {
-        self.sim.log.errors()
+        self.parts.sim.log.errors()
     }
 
     /// How often lines of scripts ran since the last time, where `Options::count_lines` asks for that.
     pub fn take_line_counts(&mut self) -> LineCounts {
-        self.sim.take_line_counts()
+        self.copied(|sim| sim.take_line_counts())
     }
 
     /// Whether a script asked to end the program.
     pub fn quit_requested(&self) -> bool {
-        self.sim.clock.quit_is_requested()
+        self.parts.sim.clock.quit_is_requested()
     }
 
     /// A hash (xxh3, 64 bits) of what scripts can observe: poses, velocities, joints, readings, properties, custom data, signals, the
@@ -366,17 +376,18 @@ impl Simulator {
     ///
     /// The first call looks at everything; from then on changes are followed, and a call costs as much as there are changes.
     pub fn state_hash(&self) -> u64 {
-        self.sim.state_hash()
+        self.inside().state_hash()
     }
 
     /// The same; `sink` gets each value that changed since the last call of this function, all of them at the first one.
-    pub fn state_hash_with(&self, sink: impl FnMut(ChangedValue<'_>)) -> u64 {
-        self.sim.state_hash_with(sink)
+    pub fn state_hash_with(&self, mut sink: impl FnMut(ChangedValue<'_>)) -> u64 {
+        self.inside()
+            .state_hash_with(|value| heap::outside(|| sink(value)))
     }
 
     /// The named parameters, as text.
     pub fn named_params(&self) -> Vec<(String, String)> {
-        let app = self.sim.app.borrow();
+        let app = self.parts.sim.app.borrow();
         let text = |value: &Vec<u8>| String::from_utf8_lossy(value).into_owned();
         app.named_params
             .iter()
@@ -386,17 +397,13 @@ impl Simulator {
 
     /// The names of the parameters that scripts have read.
     pub fn params_read(&self) -> BTreeSet<String> {
-        self.sim.app.borrow().params_read.borrow().clone()
+        let app = self.parts.sim.app.borrow();
+        app.params_read.borrow().clone()
     }
 
     /// The scene, to read. Do not hold it across other calls.
     pub fn scene(&self) -> Ref<'_, Scene> {
-        self.sim.scene.borrow()
-    }
-
-    /// The scene, to write. Do not hold it across other calls.
-    pub fn scene_mut(&mut self) -> RefMut<'_, Scene> {
-        self.sim.scene.borrow_mut()
+        self.parts.sim.scene.borrow()
     }
 
     /// Calls a global function of a script.
@@ -409,7 +416,8 @@ impl Simulator {
         function: &str,
         args: &[Data],
     ) -> Result<Vec<Data>, Error> {
-        Ok(self.sim.call_function(&script.0, function, args)?)
+        let script = self.found(script.0)?;
+        Ok(self.copied(|sim| sim.call_function(&script, function, args))?)
     }
 
     /// Calls a function that scripts have, such as `sim.getObjectPosition` or `simConvex.qhull`, as the sandbox would. Native functions are called
@@ -418,19 +426,20 @@ impl Simulator {
     /// # Errors
     /// The error of the function, with the text that scripts receive; or when there is no such function.
     pub fn call_api(&mut self, name: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
-        let sandbox = self.the(ScriptType::Sandbox);
-        Ok(self.sim.call_api(&sandbox.0, name, args)?)
+        let sandbox = self.detached(ScriptType::Sandbox);
+        Ok(self.copied(|sim| sim.call_api(&sandbox, name, args))?)
     }
 }
 
 impl Drop for Simulator {
     /// The end of the application: add-ons and the sandbox clean up.
     fn drop(&mut self) {
-        self.sim.end_detached();
-        self.sim.end_video_of_scripts();
-        self.sim.unload_plugins();
-        self.sim.scripts.close_all();
-        self.sim.save_app_storage();
+        let sim = self.inside();
+        sim.end_detached();
+        sim.end_video_of_scripts();
+        sim.unload_plugins();
+        sim.scripts.close_all();
+        sim.save_app_storage();
     }
 }
 
@@ -457,8 +466,7 @@ mod tests {
         let script = sim
             .add_script(ScriptKind::Customization, "script", code)
             .expect("the script loads");
-        let gone = Rc::downgrade(&script.0);
-        drop(script);
+        let gone = Rc::downgrade(&sim.found(script.0).expect("it is there"));
         drop(sim);
         assert!(gone.upgrade().is_none());
     }

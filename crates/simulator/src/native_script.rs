@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::{Caller, Error, ScriptKind, ScriptRef, Simulator};
+use heap::resource::Resource;
+use heap::{Outer, brought_in};
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Data, Kind};
 use script::{
@@ -43,6 +45,11 @@ pub trait NativeScript {
         Err("scripts of the embedding program have no text to run.".to_owned())
     }
 
+    /// Whether it has no variables of its own, so that a snapshot of the simulator leaves out nothing of it.
+    fn is_stateless(&self) -> bool {
+        false
+    }
+
     /// The calls in progress.
     fn traceback(&self) -> String {
         String::new()
@@ -52,10 +59,13 @@ pub trait NativeScript {
 /// Makes a script each time it starts. The caller has the API in the name of that script.
 pub type NativeScriptFactory = dyn Fn(Caller) -> Result<Box<dyn NativeScript>, String>;
 
+/// What the program gave to make a script.
+type Factory = Outer<Rc<NativeScriptFactory>>;
+
 /// The scripts of a simulator, by the text of their script objects.
 #[derive(Default)]
 pub(super) struct NativeScripts {
-    factories: RefCell<BTreeMap<Vec<u8>, Rc<NativeScriptFactory>>>,
+    factories: RefCell<BTreeMap<Vec<u8>, Rc<Factory>>>,
     count: Cell<usize>,
 }
 
@@ -70,7 +80,7 @@ impl NativeScripts {
         );
         self.factories
             .borrow_mut()
-            .insert(text.clone().into_bytes(), factory);
+            .insert(text.clone().into_bytes(), Rc::new(Outer::new(factory)));
         text.into_bytes()
     }
 }
@@ -94,42 +104,44 @@ impl Simulator {
             ScriptKind::AddOn => return Ok(self.add_native_add_on(name, Rc::new(create))),
             ScriptKind::Sandbox | ScriptKind::Main => return Err(ApiError::NoSuchScript.into()),
         };
-        let text = self.native_scripts.add(name, Rc::new(create));
-        let mut object = ScriptObject::new(script_type, text, LANGUAGE, false);
+        let text = self.add_factory(name, Rc::new(create));
+        let sim = self.inside();
+        let mut object = ScriptObject::new(script_type, text.clone(), LANGUAGE, false);
         // Scripts of languages that the scene does not know are disabled at first.
         object.disabled = false;
         let object = Kind::Script(Box::new(object));
         let alias = if name.is_empty() { "Script" } else { name };
-        let handle = self
-            .sim
-            .scene
-            .borrow_mut()
-            .add(alias, object)
-            .map_err(ApiError::from)?;
-        let script = self
-            .sim
-            .script(handle.raw())
-            .ok_or(ApiError::NoSuchScript)?;
+        let added = sim.scene.borrow_mut().add(alias, object);
+        let handle = added.map_err(ApiError::from)?;
+        let script = sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
         if script_type == ScriptType::Customization {
-            self.sim.init_script(&script);
+            sim.init_script(&script);
         }
-        Ok(ScriptRef(script))
+        Ok(ScriptRef(script.id))
+    }
+
+    /// Keeps what makes a script; returns the text of its object.
+    fn add_factory(&self, name: &str, create: Rc<NativeScriptFactory>) -> Vec<u8> {
+        let _inside = self.inside();
+        self.parts.native_scripts.add(name, create)
     }
 
     fn add_native_add_on(&mut self, name: &str, create: Rc<NativeScriptFactory>) -> ScriptRef {
-        let text = self.native_scripts.add(name, create);
+        let text = self.add_factory(name, create);
+        let sim = self.inside();
         let detached = Detached {
             language: LANGUAGE.to_owned(),
             ..Detached::of_text(&format!("{name}@addOnScript"), &text)
         };
-        let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
-        self.sim.start_detached(&script);
-        ScriptRef(script)
+        let script = sim.scripts.add_detached(ScriptType::AddOn, detached);
+        sim.start_detached(&script);
+        ScriptRef(script.id)
     }
 
     /// Calls of API functions in the name of a script.
     pub fn caller(&self, script: &ScriptRef) -> Caller {
-        Caller::new(&self.sim, &script.0)
+        let inside = self.inside();
+        Caller::new(&inside, script.0)
     }
 }
 
@@ -145,6 +157,7 @@ impl Language for NativeLanguage {
         let interpreter = Running {
             env: Rc::clone(&env),
             script: OnceCell::new(),
+            resource: RefCell::default(),
             lua: OnceCell::new(),
             scripts: Rc::clone(&self.0),
         };
@@ -155,7 +168,8 @@ impl Language for NativeLanguage {
 /// A running script.
 struct Running {
     env: Rc<Env>,
-    script: OnceCell<Box<dyn NativeScript>>,
+    script: OnceCell<Outer<Box<dyn NativeScript>>>,
+    resource: RefCell<Option<Resource>>,
     /// Runs the functions of the library that are written in Lua.
     lua: OnceCell<Rc<Runtime>>,
     scripts: Rc<NativeScripts>,
@@ -167,7 +181,7 @@ impl Running {
             .env
             .simulator()
             .ok_or_else(|| ScriptError::new("the simulator is gone."))?;
-        Ok(Caller::new(&sim, &self.env.script))
+        Ok(Caller::new(&sim, self.env.script.id))
     }
 
     fn lua(&self) -> Result<&Runtime, ScriptError> {
@@ -187,12 +201,19 @@ impl Running {
             .ok_or_else(|| ScriptError::new("there is no Lua interpreter."))
     }
 
-    fn defined(&self, name: &str) -> Option<&dyn NativeScript> {
-        self.script
-            .get()
-            .map(Box::as_ref)
-            .filter(|script| script.defines(name))
+    fn defined(&self, name: &str) -> Option<&Outer<Box<dyn NativeScript>>> {
+        let script = self.script.get();
+        script.filter(|script| script.with(|script| script.defines(name)))
     }
+}
+
+/// Calls a function of the program, in its own memory.
+fn call_out(
+    script: &Outer<Box<dyn NativeScript>>,
+    name: &str,
+    args: &[Data],
+) -> Result<Vec<Data>, String> {
+    brought_in(|| script.with(|script| script.call(name, args)))
 }
 
 impl Interpreter for Running {
@@ -203,7 +224,14 @@ impl Interpreter for Running {
     fn load(&self, source: &SourceText<'_>) -> Result<(), ScriptError> {
         let factory = self.scripts.factories.borrow().get(source.text).cloned();
         let missing = || ScriptError::new("the program that added this script is not there.");
-        let script = factory.ok_or_else(missing)?(self.caller()?).map_err(ScriptError::new)?;
+        let (factory, caller) = (factory.ok_or_else(missing)?, self.caller()?);
+        let script = factory.with(|factory| factory(caller).map(Outer::new));
+        let script = script.map_err(|error| ScriptError::new(brought_in(move || error)))?;
+        if !script.with(|script| script.is_stateless()) {
+            let name =
+                || "the variables of a script of the program around the simulator".to_owned();
+            self.resource.replace(Some(Resource::new(name)));
+        }
         // A text is loaded once.
         let _ = self.script.set(script);
         Ok(())
@@ -217,7 +245,7 @@ impl Interpreter for Running {
         let Some(script) = self.defined(call.name()) else {
             return Ok(CallbackResult::NotDefined);
         };
-        let results = script.call(call.name(), args).map_err(ScriptError::new)?;
+        let results = call_out(script, call.name(), args).map_err(ScriptError::new)?;
         Ok(CallbackResult::Returned(results.into_iter().last()))
     }
 
@@ -225,15 +253,14 @@ impl Interpreter for Running {
         let Some(script) = self.defined(&hook.name) else {
             return Ok(false);
         };
-        script
-            .call(&hook.name, args)
+        call_out(script, &hook.name, args)
             .map(|_| true)
             .map_err(ScriptError::new)
     }
 
     fn resume_thread(&self) -> Result<(), ScriptError> {
         self.script.get().map_or(Ok(()), |script| {
-            script.resume_thread().map_err(ScriptError::new)
+            brought_in(|| script.with(|script| script.resume_thread())).map_err(ScriptError::new)
         })
     }
 
@@ -243,11 +270,14 @@ impl Interpreter for Running {
             return Err(CallError::NoSuchFunction);
         };
         let results = match self.defined(SysCall::Ext.name()) {
-            Some(script) => script.call(SysCall::Ext.name(), &[&[Data::text(name)], args].concat()),
-            None => self
-                .defined(name)
-                .ok_or(CallError::NoSuchFunction)?
-                .call(name, args),
+            Some(script) => {
+                let args = [&[Data::text(name)], args].concat();
+                call_out(script, SysCall::Ext.name(), &args)
+            }
+            None => {
+                let script = self.defined(name).ok_or(CallError::NoSuchFunction)?;
+                call_out(script, name, args)
+            }
         };
         results.map_err(|error| ScriptError::new(error).into())
     }
@@ -261,7 +291,7 @@ impl Interpreter for Running {
             .script
             .get()
             .ok_or_else(|| ScriptError::new("the script has not started."))?;
-        script.evaluate(text).map_err(ScriptError::new)
+        brought_in(|| script.with(|script| script.evaluate(text))).map_err(ScriptError::new)
     }
 
     fn call_library(
@@ -278,7 +308,7 @@ impl Interpreter for Running {
     fn traceback(&self) -> String {
         self.script
             .get()
-            .map(|script| script.traceback())
+            .map(|script| brought_in(|| script.with(|script| script.traceback())))
             .unwrap_or_default()
     }
 }

@@ -105,8 +105,8 @@ fn its_error_ends_it() {
 fn a_call_that_waits_is_resumed_after_steps() {
     let mut simulator = Simulator::new(Options::default());
     let (handle, _) = robot(&mut simulator, ScriptKind::AddOn);
-    let script = simulator.sim.script(handle).expect("it is there");
-    let caller = simulator.caller(&ScriptRef(script));
+    let script = simulator.parts.sim.script(handle).expect("it is there");
+    let caller = simulator.caller(&ScriptRef(script.id));
     simulator.start();
     let wait = caller.function("sim.wait");
     let mut progress = caller.begin(&wait, &[Data::Float(0.1)]);
@@ -131,8 +131,8 @@ fn a_call_that_waits_is_resumed_after_steps() {
 fn a_caller_outlives_its_simulator() {
     let mut simulator = Simulator::new(Options::default());
     let (handle, _) = robot(&mut simulator, ScriptKind::AddOn);
-    let script = simulator.sim.script(handle).expect("it is there");
-    let caller = simulator.caller(&ScriptRef(script));
+    let script = simulator.parts.sim.script(handle).expect("it is there");
+    let caller = simulator.caller(&ScriptRef(script.id));
     drop(simulator);
     assert!(
         caller

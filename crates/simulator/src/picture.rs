@@ -18,10 +18,11 @@ impl Simulator {
         resolution: Option<[u32; 2]>,
         channels: Channels,
     ) -> Result<Picture, Error> {
-        let mut perception = self.sim.perception.borrow_mut();
-        let picture = perception
-            .vision
-            .view(&self.sim.scene.borrow(), from, resolution, channels);
+        let picture = self.copied(|sim| {
+            let scene = sim.scene.borrow();
+            let vision = &mut sim.perception.borrow_mut().vision;
+            vision.view(&scene, from, resolution, channels)
+        });
         Ok(picture.map_err(ApiError::from)?)
     }
 
@@ -30,17 +31,17 @@ impl Simulator {
     /// # Errors
     /// When `from` is neither a camera nor a vision sensor.
     pub fn projection(&self, from: Option<Handle>) -> Result<View, Error> {
-        Ok(projection(&self.sim.scene.borrow(), from).map_err(ApiError::from)?)
+        Ok(projection(&self.parts.sim.scene.borrow(), from).map_err(ApiError::from)?)
     }
 
     /// Takes a video of the simulation from its next step on, also of one that is started later.
     pub fn start_video(&mut self, options: VideoOptions) {
-        self.sim.start_video(options);
+        self.inside().start_video(options.clone());
     }
 
     /// Why the video ended before [`finish_video`](Self::finish_video).
     pub fn video_failure(&self) -> Option<VideoFailure> {
-        self.sim.video_failure()
+        self.copied(|sim| sim.video_failure())
     }
 
     /// Completes the video. Without a step there is no file.
@@ -48,6 +49,6 @@ impl Simulator {
     /// # Errors
     /// When it could not be written, or the camera is not there. There is a file all the same if there was a picture before.
     pub fn finish_video(&mut self) -> Result<(), VideoFailure> {
-        self.sim.finish_video()
+        self.copied(|sim| sim.finish_video())
     }
 }

@@ -41,7 +41,7 @@ impl Simulator {
             }
         }
         self.scene_mut()
-            .modify_settings(|settings| settings.path = absolute);
+            .modify_settings(|settings| settings.path.clone_from(&absolute));
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use ::scene::object::script_object::ScriptType;
 use io::ZmqServer;
-use script::Detached;
+use script::{Detached, Sim};
 
 use super::Simulator;
 
@@ -44,8 +44,8 @@ impl Simulator {
         stop: Arc<AtomicBool>,
     ) -> Result<SocketAddr, String> {
         let address = self.listen("the ZeroMQ remote API", listen, |sim, listener| {
-            let server = ZmqServer::start(sim.sim.event_loop.get()?, listener, stop)?;
-            modules_messaging::remote::set_zmq_server(&sim.sim.modules.states, server);
+            let server = ZmqServer::start(sim.event_loop.get()?, listener, stop)?;
+            modules_messaging::remote::set_zmq_server(&sim.modules.states, server);
             Ok(())
         })?;
         self.name_port("zmqRemoteApi.rpcPort", address);
@@ -71,7 +71,7 @@ impl Simulator {
         listen: impl FnOnce() -> Result<TcpListener, String>,
     ) -> Result<SocketAddr, String> {
         let address = self.listen("the WebSocket remote API", listen, |sim, listener| {
-            modules_messaging::remote::set_web_socket_listener(&sim.sim.modules.states, listener);
+            modules_messaging::remote::set_web_socket_listener(&sim.modules.states, listener);
             Ok(())
         })?;
         self.name_port("wsRemoteApi.port", address);
@@ -96,19 +96,12 @@ impl Simulator {
         &mut self,
         listen: impl FnOnce() -> Result<TcpListener, String>,
     ) -> Result<SocketAddr, String> {
-        let event_loop = self
-            .sim
-            .event_loop
-            .get()
-            .map_err(|error| error.to_string())?;
-        let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
-        modules_messaging::sim_remote_api::serve(
-            &self.sim.modules.states,
-            &event_loop,
-            self.tape(),
-            listen,
-            age,
-        )
+        self.copied(|sim| {
+            let event_loop = sim.event_loop.get().map_err(|error| error.to_string())?;
+            let age = Duration::from_secs_f64(sim.clock.wall_seconds());
+            let states = &sim.modules.states;
+            modules_messaging::sim_remote_api::serve(states, &event_loop, self.tape(), listen, age)
+        })
     }
 
     /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
@@ -132,7 +125,7 @@ impl Simulator {
         listen: impl FnOnce() -> Result<TcpListener, String>,
     ) -> Result<SocketAddr, String> {
         let address = self.listen("the visualization stream", listen, |sim, listener| {
-            let states = &sim.sim.modules.states;
+            let states = &sim.modules.states;
             modules_messaging::remote::set_visualization_listener(states, listener);
             Ok(())
         })?;
@@ -146,12 +139,13 @@ impl Simulator {
         &self,
         what: &str,
         listen: impl FnOnce() -> Result<TcpListener, String>,
-        serve: impl FnOnce(&Self, TcpListener) -> std::io::Result<()>,
+        serve: impl FnOnce(&Sim, TcpListener) -> std::io::Result<()>,
     ) -> Result<SocketAddr, String> {
         let address = self.tape().input(&format!("the address of {what}"), || {
             let listener = listen()?;
             let address = listener.local_addr();
-            let address = address.and_then(|address| serve(self, listener).map(|()| address));
+            let started = || serve(&self.inside(), listener);
+            let address = address.and_then(|address| started().map(|()| address));
             let failed = |error| format!("the remote API cannot start: {error}");
             address.map_err(failed).map(|address| address.to_string())
         });
@@ -163,25 +157,30 @@ impl Simulator {
 
     /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.
     pub fn wait_for_request(&self, timeout: Duration) -> bool {
-        self.sim.event_loop.wait_for_input(timeout)
+        let sim = self.inside();
+        sim.event_loop.wait_for_input(timeout)
     }
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
     pub fn has_zmq_sockets(&self) -> bool {
-        modules_messaging::sim_zmq::has_sockets(&self.sim.modules.states)
+        let sim = self.inside();
+        modules_messaging::sim_zmq::has_sockets(&sim.modules.states)
     }
 
     /// Tells scripts the port of a server, as a named parameter.
     fn name_port(&self, parameter: &str, address: SocketAddr) {
-        let port = address.port().to_string().into_bytes();
-        let named_params = &mut self.sim.app.borrow_mut().named_params;
-        named_params.insert(parameter.to_owned(), port);
+        let sim = self.inside();
+        sim.app.borrow_mut().named_params.insert(
+            parameter.to_owned(),
+            address.port().to_string().into_bytes(),
+        );
     }
 
     /// Starts the add-on that answers the clients of a server.
     fn start_server(&self, name: &str, code: &[u8]) {
         let detached = Detached::of_text(name, code);
-        let add_on = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
-        self.sim.start_detached(&add_on);
+        let sim = self.inside();
+        let add_on = sim.scripts.add_detached(ScriptType::AddOn, detached);
+        sim.start_detached(&add_on);
     }
 }

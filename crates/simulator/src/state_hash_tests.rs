@@ -172,7 +172,7 @@ impl Case {
     /// The hash, followed and looked at anew.
     fn hash(&self) -> u64 {
         let hash = self.0.state_hash();
-        assert_eq!(hash, self.0.sim.state_hash_anew());
+        assert_eq!(hash, self.0.parts.sim.state_hash_anew());
         hash
     }
 }

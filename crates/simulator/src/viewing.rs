@@ -11,6 +11,7 @@ use script::property_table::flags;
 use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
+#[derive(Clone)]
 pub struct PropertyRow {
     /// Its name, without the class.
     pub name: String,
@@ -44,37 +45,37 @@ const NOT_SHOWN: &[&str] = &[
 impl Simulator {
     /// Keeps lines of the log from now on, for [`take_recent_lines`](Self::take_recent_lines).
     pub fn keep_recent_lines(&self) {
-        self.sim.log.keep_recent();
+        self.inside().log.keep_recent();
     }
 
     /// Lines of the log and prints since the last call.
     pub fn take_recent_lines(&self) -> Vec<RecentLine> {
-        self.sim.log.take_recent()
+        self.copied(|sim| sim.log.take_recent())
     }
 
     /// Sets the function that shows dialogs of scripts to users and returns their answers.
     pub fn set_person(&self, ask: Rc<Ask>) {
-        self.sim.set_person(ask);
+        self.inside().set_person(ask);
     }
 
     /// Shows the state after each step from now on; None ends that.
     pub fn watch(&self, watcher: Option<Watcher>) {
-        self.sim.watch(watcher);
+        self.inside().watch(watcher);
     }
 
     /// Calls `observe` with the present state, and the lines of the log since the last time.
     pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
-        self.sim.with_present(observe)
+        self.parts.sim.with_present(observe)
     }
 
     /// This simulator with its scene as it is now.
     pub fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
-        self.sim.situation(scene)
+        self.parts.sim.situation(scene)
     }
 
     /// Identifies the scene: it changes when another scene is loaded.
     pub fn scene_uid(&self) -> i64 {
-        self.sim.scene_uid()
+        self.inside().scene_uid()
     }
 
     /// The properties of an object, or of what else has properties (`sim.handle_app`, `sim.handle_scene`), without those that are long.
@@ -82,7 +83,7 @@ impl Simulator {
     /// # Errors
     /// When there is nothing with that handle.
     pub fn property_rows(&self, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
-        property_rows(&self.sim, handle)
+        self.copied(|sim| property_rows(sim, handle))
     }
 
     /// The type of a property.
@@ -90,13 +91,12 @@ impl Simulator {
     /// # Errors
     /// When there is nothing with that handle, or it has no such property.
     pub fn property_type(&self, handle: i64, name: &str) -> Result<ValueType, ApiError> {
-        let target = self
-            .sim
-            .property_target(handle, &self.the(ScriptType::Sandbox).0)?;
-        self.sim
-            .property_info(&target, name)
-            .map(|(ty, _)| ty)
-            .ok_or(ApiError::UnknownProperty)
+        let sandbox = self.detached(ScriptType::Sandbox);
+        self.copied(|sim| {
+            let target = sim.property_target(handle, &sandbox)?;
+            let info = sim.property_info(&target, name);
+            info.map(|(ty, _)| ty).ok_or(ApiError::UnknownProperty)
+        })
     }
 
     /// Name, language and text of a script.
@@ -104,8 +104,8 @@ impl Simulator {
     /// # Errors
     /// When there is no script with that handle.
     pub fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
-        let script = self.sim.script(handle).ok_or(ApiError::NoSuchScript)?;
-        Ok(self.sim.text_of(&script))
+        let script = self.found(handle)?;
+        Ok(self.copied(|sim| sim.text_of(&script)))
     }
 
     /// Calls `sysCall_userConfig` of a script, as a double click on its symbol does; whether it has such a function.
@@ -113,28 +113,28 @@ impl Simulator {
     /// # Errors
     /// When there is no script with that handle.
     pub fn configure(&mut self, script: i64) -> Result<bool, ApiError> {
-        let script = self.sim.script(script).ok_or(ApiError::NoSuchScript)?;
-        Ok(self.sim.deliver(&script, SysCall::UserConfig, &[]).ran)
+        let script = self.found(script)?;
+        Ok(self.inside().deliver(&script, SysCall::UserConfig, &[]).ran)
     }
 
     /// Starts or resumes the simulation, beyond a pause that [`step_and_pause`](Self::step_and_pause) has set.
     pub fn play(&mut self) {
-        self.sim.play();
+        self.inside().play();
     }
 
     /// Starts or resumes the simulation for that many steps, and pauses it.
     pub fn step_and_pause(&mut self, steps: u64) {
-        self.sim.step_and_pause(steps);
+        self.inside().step_and_pause(steps);
     }
 
     /// Asks for the end of the run, also of one that is about to pause.
     pub fn stop_in_place_of_pause(&mut self) {
-        self.sim.stop_in_place_of_pause();
+        self.inside().stop_in_place_of_pause();
     }
 
     /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
     pub fn set_pace(&mut self, factor: f64) {
-        self.sim.set_pace(factor);
+        self.inside().set_pace(factor);
     }
 
     /// Evaluates what a person has typed, as the commander does: an expression is printed.
@@ -154,7 +154,7 @@ impl Simulator {
 
     /// The contacts of the last sub-step of the physics.
     pub fn last_contacts(&self) -> Vec<Contact> {
-        let dynamics = self.sim.dynamics.borrow();
+        let dynamics = self.parts.sim.dynamics.borrow();
         let all: Vec<Contact> = dynamics
             .iter()
             .flat_map(dynamics::Dynamics::contacts)

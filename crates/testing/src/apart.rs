@@ -90,14 +90,14 @@ fn fill(sim: &mut Simulator, input: &SceneInput, request: &RunRequest) -> Result
             }
             sim.load(scene).map_err(|error| about(&error))?;
             sim.scene_mut()
-                .modify_settings(|settings| settings.path = path);
+                .modify_settings(|settings| settings.path.clone_from(&path));
         }
         SceneInput::Script(code) => {
             if !request.empty {
                 let _ = sim.scene_mut().add_default_objects();
             }
             sim.scene_mut()
-                .modify_settings(|settings| settings.path = path);
+                .modify_settings(|settings| settings.path.clone_from(&path));
             // A script that fails has said so in the log, and is counted.
             let kind = kind_of(request.kind);
             let _ =

@@ -202,3 +202,18 @@ fn every_module_says_what_it_is_for() {
         .collect();
     assert!(silent.is_empty(), "these begin without `//!`: {silent:?}");
 }
+
+/// What a static holds outlives the simulator that needs it first, so it must not lie in its memory.
+#[test]
+fn statics_are_made_outside_of_simulators() {
+    let wrong: Vec<_> = sources()
+        .into_iter()
+        .filter(|file| {
+            // The reference is written without a simulator.
+            let elsewhere = ["crates/heap", "crates/docs"].map(|folder| root().join(folder));
+            !elsewhere.iter().any(|folder| file.starts_with(folder))
+        })
+        .filter(|file| code_lines(&read(file)).any(|line| line.contains("LazyLock")))
+        .collect();
+    assert!(wrong.is_empty(), "use `heap::Lazy` there: {wrong:?}");
+}

@@ -11,7 +11,7 @@ use rapier3d_f64::prelude::SharedShape;
 
 use super::form_maker::Making;
 use super::hull_shape::hull_shape;
-use super::made_forms::form_of;
+use super::made_forms::Forms;
 use crate::convert::{to_pose, to_vector};
 use crate::plan::PartForm;
 use scene::shape::Primitive;
@@ -22,13 +22,17 @@ const MIN_THICKNESS: f64 = 0.0001;
 const MESH_SIZES: std::ops::Range<f64> = 1e-6..1e6;
 
 /// Forms of one part, placed in the shape frame; those of meshes were made. Empty when the part has no volume and no surface.
-pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedShape)> {
+pub(super) fn forms(
+    part: &PartForm,
+    dynamic: bool,
+    made: &Forms,
+) -> Vec<(EnginePose, SharedShape)> {
     let frame = to_pose(&part.pose);
     if let Some(form) = part.primitive.as_ref().and_then(analytic) {
         return vec![(frame * form.0, form.1)];
     }
     making(part, dynamic)
-        .and_then(|making| form_of(&part.mesh, making))
+        .and_then(|making| made.form_of(&part.mesh, making))
         .map(|form| vec![(frame, form)])
         .unwrap_or_default()
 }

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use file_cache::{FileCache, Key};
 use geometry::Mesh;
+use heap::{Handle, SharedHandle, outside};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::kept_hulls::{Hull, decode, encode};
@@ -109,9 +110,15 @@ fn for_each<T: Sync, R: Send>(
         }
         results
     };
+    let heap = (threads.get() > 1).then(Handle::current).flatten();
+    let heap = heap.map(Handle::shared);
+    let some_inside = || {
+        let _entered = heap.map(SharedHandle::entered);
+        some()
+    };
     let mut results = std::thread::scope(|scope| {
-        let others = (1..threads.get().min(items.len())).map(|_| scope.spawn(some));
-        let others: Vec<_> = others.collect();
+        let spawn = |_| outside(|| scope.spawn(some_inside));
+        let others: Vec<_> = (1..threads.get().min(items.len())).map(spawn).collect();
         let mut results = some();
         for other in others {
             match other.join() {

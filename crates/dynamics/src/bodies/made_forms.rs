@@ -3,9 +3,11 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::{Rc, Weak};
+use std::sync::Arc;
 
 use file_cache::Key;
 use geometry::Mesh;
+use heap::outside;
 use rapier3d_f64::prelude::SharedShape;
 
 use super::form_maker::{FormMaker, Making};
@@ -18,9 +20,7 @@ const MAX_RECENT: usize = 128;
 type Known = (Weak<Mesh>, Option<SharedShape>);
 
 thread_local! {
-    /// By the address of the mesh, which is no other's while it is known here. Simulators of a thread share it.
-    static KNOWN: RefCell<HashMap<(*const Mesh, Making), Known>> = RefCell::default();
-    /// The pieces of the last meshes, which may be gone, by their content.
+    /// The pieces of the last meshes, which may be gone, by their content. Simulators of a thread share it, so it lies outside of their memory.
     static RECENT: RefCell<Recent> = RefCell::default();
 }
 
@@ -31,70 +31,100 @@ struct Wanted<'a> {
     key: Option<Key>,
 }
 
-/// The form of a mesh that was made; None where there is none.
-pub(super) fn form_of(mesh: &Rc<Mesh>, making: Making) -> Option<SharedShape> {
-    KNOWN.with_borrow(|known| known.get(&(Rc::as_ptr(mesh), making))?.1.clone())
+/// The forms of the meshes of a simulator.
+#[derive(Default)]
+pub(crate) struct Forms {
+    maker: FormMaker,
+    /// By the address of the mesh, which is no other's while it is known here.
+    known: HashMap<(*const Mesh, Making), Known>,
 }
 
-/// Makes the forms of meshes, each once while the mesh exists: meshes never change in place.
-pub(super) fn make_all<'a>(
-    meshes: impl Iterator<Item = (&'a Rc<Mesh>, Making)>,
-    maker: &FormMaker,
-) {
-    let wanted = unknown(meshes);
-    let mut keys = HashSet::new();
-    let is_missing = |wanted: &&Wanted| {
-        let is_recent = |key| RECENT.with_borrow(|recent| recent.forms.contains_key(&key));
-        wanted
-            .key
-            .is_none_or(|key| !is_recent(key) && keys.insert(key))
-    };
-    let missing: Vec<_> = wanted.iter().filter(is_missing).collect();
-    let order: Vec<_> = missing
-        .iter()
-        .map(|wanted| (&**wanted.mesh, wanted.making, wanted.key))
-        .collect();
-    for (wanted, form) in missing.into_iter().zip(maker.make(&order)) {
-        match wanted.key {
-            Some(key) => RECENT.with_borrow_mut(|recent| recent.add(key, form)),
-            None => remember(wanted.mesh, wanted.making, form),
+impl Forms {
+    pub(crate) fn new(maker: FormMaker) -> Self {
+        Self {
+            maker,
+            known: HashMap::new(),
         }
     }
-    RECENT.with_borrow_mut(|recent| {
-        for wanted in &wanted {
-            if let Some(key) = &wanted.key {
-                remember(wanted.mesh, wanted.making, recent.get(key));
+
+    /// The form of a mesh that was made; None where there is none.
+    pub(super) fn form_of(&self, mesh: &Rc<Mesh>, making: Making) -> Option<SharedShape> {
+        self.known.get(&(Rc::as_ptr(mesh), making))?.1.clone()
+    }
+
+    /// Makes the forms of meshes, each once while the mesh exists: meshes never change in place.
+    pub(super) fn make_all<'a>(&mut self, meshes: impl Iterator<Item = (&'a Rc<Mesh>, Making)>) {
+        let wanted = self.unknown(meshes);
+        let mut keys = HashSet::new();
+        let is_missing = |wanted: &&Wanted| {
+            let is_recent = |key| RECENT.with_borrow(|recent| recent.forms.contains_key(&key));
+            wanted
+                .key
+                .is_none_or(|key| !is_recent(key) && keys.insert(key))
+        };
+        let missing: Vec<_> = wanted.iter().filter(is_missing).collect();
+        let order: Vec<_> = missing
+            .iter()
+            .map(|wanted| (&**wanted.mesh, wanted.making, wanted.key))
+            .collect();
+        for (wanted, form) in missing.into_iter().zip(self.maker.make(&order)) {
+            match wanted.key {
+                Some(key) => keep_recent(key, form.as_ref()),
+                None => self.remember(wanted.mesh, wanted.making, form),
             }
         }
-        recent.drop_oldest();
-    });
-}
-
-/// What was not made yet, each once.
-fn unknown<'a>(meshes: impl Iterator<Item = (&'a Rc<Mesh>, Making)>) -> Vec<Wanted<'a>> {
-    let mut seen = HashSet::new();
-    meshes
-        .filter(|&(mesh, making)| {
-            let place = (Rc::as_ptr(mesh), making);
-            let is_known = KNOWN.with_borrow(|known| known.contains_key(&place));
-            !is_known && seen.insert(place)
-        })
-        .map(|(mesh, making)| Wanted {
-            mesh,
-            making,
-            key: (making == Making::Pieces).then(|| pieces::key(mesh)),
-        })
-        .collect()
-}
-
-fn remember(mesh: &Rc<Mesh>, making: Making, form: Option<SharedShape>) {
-    KNOWN.with_borrow_mut(|known| {
-        // Only before it would grow, so that many meshes cost little.
-        if known.len() == known.capacity() {
-            known.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+        for wanted in &wanted {
+            if let Some(key) = &wanted.key {
+                let form = recent(key);
+                self.remember(wanted.mesh, wanted.making, form);
+            }
         }
-        known.insert((Rc::as_ptr(mesh), making), (Rc::downgrade(mesh), form));
-    });
+        RECENT.with_borrow_mut(|recent| outside(|| recent.drop_oldest()));
+    }
+
+    /// What was not made yet, each once.
+    fn unknown<'a>(&self, meshes: impl Iterator<Item = (&'a Rc<Mesh>, Making)>) -> Vec<Wanted<'a>> {
+        let mut seen = HashSet::new();
+        meshes
+            .filter(|&(mesh, making)| {
+                let place = (Rc::as_ptr(mesh), making);
+                !self.known.contains_key(&place) && seen.insert(place)
+            })
+            .map(|(mesh, making)| Wanted {
+                mesh,
+                making,
+                key: (making == Making::Pieces).then(|| pieces::key(mesh)),
+            })
+            .collect()
+    }
+
+    fn remember(&mut self, mesh: &Rc<Mesh>, making: Making, form: Option<SharedShape>) {
+        // Only before it would grow, so that many meshes cost little.
+        if self.known.len() == self.known.capacity() {
+            self.known.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+        }
+        let known = (Rc::downgrade(mesh), form);
+        self.known.insert((Rc::as_ptr(mesh), making), known);
+    }
+}
+
+/// Keeps a copy of a form for other simulators.
+fn keep_recent(key: Key, form: Option<&SharedShape>) {
+    RECENT.with_borrow_mut(|recent| outside(|| recent.add(key, form.map(copied))));
+}
+
+/// A copy of a form that was kept.
+fn recent(key: &Key) -> Option<SharedShape> {
+    RECENT.with_borrow_mut(|recent| recent.get(key).map(copied))
+}
+
+/// The same form, with nothing in common with the first one.
+fn copied(form: &SharedShape) -> SharedShape {
+    let Some(parts) = form.as_compound() else {
+        return SharedShape(Arc::from(form.clone_dyn()));
+    };
+    let parts = parts.shapes().iter();
+    SharedShape::compound(parts.map(|(pose, part)| (*pose, copied(part))).collect())
 }
 
 /// Forms by what they depend on.
@@ -110,11 +140,11 @@ impl Recent {
         self.forms.insert(key, (self.uses, form));
     }
 
-    fn get(&mut self, key: &Key) -> Option<SharedShape> {
+    fn get(&mut self, key: &Key) -> Option<&SharedShape> {
         self.uses += 1;
         let (last, form) = self.forms.get_mut(key)?;
         *last = self.uses;
-        form.clone()
+        form.as_ref()
     }
 
     /// Drops those whose last use is longest ago.
@@ -144,28 +174,29 @@ mod tests {
         Rc::new(mesh)
     }
 
-    fn make(mesh: &Rc<Mesh>, making: Making, maker: &FormMaker) -> Option<SharedShape> {
-        make_all([(mesh, making)].into_iter(), maker);
-        form_of(mesh, making)
+    fn make(forms: &mut Forms, mesh: &Rc<Mesh>, making: Making) -> Option<SharedShape> {
+        forms.make_all([(mesh, making)].into_iter());
+        forms.form_of(mesh, making)
     }
 
     fn is_same(first: Option<&SharedShape>, second: Option<&SharedShape>) -> bool {
         let both = first.zip(second);
-        both.is_some_and(|(first, second)| std::sync::Arc::ptr_eq(&first.0, &second.0))
+        both.is_some_and(|(first, second)| Arc::ptr_eq(&first.0, &second.0))
     }
 
     #[test]
     fn a_form_is_made_once_while_its_mesh_exists() {
-        let (mesh, maker) = (notched(1.0), FormMaker::default());
-        let hull = make(&mesh, Making::Hull, &maker);
-        let is_again = |mesh, making| is_same(hull.as_ref(), make(mesh, making, &maker).as_ref());
+        let (mesh, mut forms) = (notched(1.0), Forms::default());
+        let hull = make(&mut forms, &mesh, Making::Hull);
+        let mut is_again =
+            |mesh, making| is_same(hull.as_ref(), make(&mut forms, mesh, making).as_ref());
         assert!(is_again(&mesh, Making::Hull));
         assert!(!is_again(&mesh, Making::Pieces));
         assert!(!is_again(&notched(1.0), Making::Hull));
         for _ in 0..1000 {
-            let _ = make(&Rc::new(Mesh::default()), Making::Hull, &maker);
+            let _ = make(&mut forms, &Rc::new(Mesh::default()), Making::Hull);
         }
-        let kept = KNOWN.with_borrow(HashMap::len);
+        let kept = forms.known.len();
         assert!(
             kept < 100,
             "forms of meshes that are gone are dropped: {kept}"
@@ -174,17 +205,27 @@ mod tests {
 
     #[test]
     fn equal_meshes_have_the_same_pieces() {
-        let maker = FormMaker::default();
-        let pieces = make(&notched(1.1), Making::Pieces, &maker);
-        let is_again = |size| {
-            let others = make(&notched(size), Making::Pieces, &maker);
-            is_same(pieces.as_ref(), others.as_ref())
+        let mut forms = Forms::default();
+        let pieces = make(&mut forms, &notched(1.1), Making::Pieces);
+        let shown = |form: Option<&SharedShape>| {
+            let parts = form
+                .and_then(|form| form.as_compound())
+                .map(|parts| parts.shapes());
+            let parts = parts.into_iter().flatten();
+            let parts: Vec<_> = parts
+                .map(|(pose, part)| (*pose, part.as_typed_shape()))
+                .collect();
+            format!("{parts:?}")
         };
-        assert!(is_again(1.1) && !is_again(1.2));
+        let mut again = |size| shown(make(&mut forms, &notched(size), Making::Pieces).as_ref());
+        assert_eq!(again(1.1), shown(pieces.as_ref()));
+        assert_ne!(again(1.2), shown(pieces.as_ref()));
         let meshes = [notched(1.3), notched(1.3)];
-        make_all(meshes.iter().map(|mesh| (mesh, Making::Pieces)), &maker);
-        let [first, second] = meshes.map(|mesh| form_of(&mesh, Making::Pieces));
-        assert!(is_same(first.as_ref(), second.as_ref()));
+        forms.make_all(meshes.iter().map(|mesh| (mesh, Making::Pieces)));
+        let [first, second] = meshes.map(|mesh| forms.form_of(&mesh, Making::Pieces));
+        assert!(first.is_some() && shown(first.as_ref()) == shown(second.as_ref()));
+        let uses = RECENT.with_borrow(|recent| recent.forms.len());
+        assert_eq!(uses, 3, "each is computed once");
     }
 
     #[test]

@@ -23,7 +23,7 @@ use super::convert::{from_pose, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
 pub use form_maker::FormMaker;
-use made_forms::make_all;
+pub(crate) use made_forms::Forms;
 use mass::{carrier, mass_properties, massless};
 use scene::shape::Velocity;
 use scene::{Field, Handle, Pose, Scene};
@@ -99,7 +99,7 @@ impl Bodies {
         plan: Vec<(Handle, BodyPlan)>,
         world: &mut World,
         scene: &mut Scene,
-        maker: &FormMaker,
+        forms: &mut Forms,
     ) {
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
         self.places = plan
@@ -110,7 +110,7 @@ impl Bodies {
         self.are_in_fluid = plan.iter().any(|(_, plan)| plan.surface.fluid.is_some());
         let stay = staying(&plan, &old, world, scene);
         let made = plan.iter().zip(&stay).filter(|(_, stays)| !**stays);
-        make_forms(made.map(|((_, plan), _)| &plan.build), maker);
+        make_forms(made.map(|((_, plan), _)| &plan.build), forms);
         for ((shape, plan), stays) in plan.into_iter().zip(stay) {
             // Bodies that no longer exist stay in `old`, to be removed from the engine.
             let existing = if stays { old.remove(&shape) } else { None };
@@ -118,7 +118,7 @@ impl Bodies {
                 Some(body) => body
                     .with_surface(shape, plan.surface, world)
                     .with_drift(shape, scene),
-                None => Body::insert(shape, plan, world, scene),
+                None => Body::insert(shape, plan, world, scene, forms),
             };
             self.all.push((shape, body));
         }
@@ -144,13 +144,13 @@ fn staying(
 }
 
 /// Makes the forms of the meshes of bodies that collide.
-fn make_forms<'a>(builds: impl Iterator<Item = &'a BodyBuild>, maker: &FormMaker) {
+fn make_forms<'a>(builds: impl Iterator<Item = &'a BodyBuild>, forms: &mut Forms) {
     let parts = builds
         .filter(|build| build.respondable)
         .flat_map(|build| build.parts.iter().map(|part| (part, build.dynamic)));
     let meshes =
         parts.filter_map(|(part, dynamic)| Some((&part.mesh, colliders::making(part, dynamic)?)));
-    make_all(meshes, maker);
+    forms.make_all(meshes);
 }
 
 /// A static body that is reset stays, with its contacts, unless it was moved: then it is elsewhere at once, without a way there.
@@ -170,7 +170,13 @@ fn wants_rebuild(scene: &Scene, shape: Handle, body: &Body, world: &World) -> bo
 
 impl Body {
     /// Builds the body where its shape is, with the initial velocity the shape carries, which is used up by that.
-    fn insert(shape: Handle, plan: BodyPlan, world: &mut World, scene: &mut Scene) -> Self {
+    fn insert(
+        shape: Handle,
+        plan: BodyPlan,
+        world: &mut World,
+        scene: &mut Scene,
+        forms: &Forms,
+    ) -> Self {
         let pose = scene.world_pose(shape).unwrap_or_else(|_| Pose::identity());
         let local = scene.object(shape).map_or(pose, |object| object.pose());
         let mut rigid = rigid_body(&plan, &pose);
@@ -201,7 +207,7 @@ impl Body {
             standing,
             slept,
         };
-        body.insert_colliders(shape, world);
+        body.insert_colliders(shape, world, forms);
         // rapier would only know the mass during the first step, mechanisms need it before.
         if let Some(rigid) = world.bodies.get_mut(rigid) {
             rigid.recompute_mass_properties_from_colliders(&world.colliders);
@@ -209,7 +215,7 @@ impl Body {
         body
     }
 
-    fn insert_colliders(&mut self, shape: Handle, world: &mut World) {
+    fn insert_colliders(&mut self, shape: Handle, world: &mut World, made: &Forms) {
         if !self.build.respondable {
             return;
         }
@@ -218,7 +224,7 @@ impl Body {
             .build
             .parts
             .iter()
-            .flat_map(|part| colliders::forms(part, self.build.dynamic));
+            .flat_map(|part| colliders::forms(part, self.build.dynamic, made));
         let forms = colliders::without_several_turned(forms.collect());
         let carrier = carrier(forms.iter().map(|(pose, _)| pose));
         for (index, (pose, form)) in forms.into_iter().enumerate() {

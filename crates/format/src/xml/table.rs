@@ -1,7 +1,7 @@
 //! The tables that map elements to fields: `fields.tsv`, `engines.tsv`, `words.tsv`. Reader and writer share them.
 
+use heap::Lazy;
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
 /// A step from a node to a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,7 +79,7 @@ impl Row {
 
 type Sections = BTreeMap<&'static str, Vec<Row>>;
 
-static SECTIONS: LazyLock<Sections> = LazyLock::new(|| {
+static SECTIONS: Lazy<Sections> = Lazy::new(|| {
     let mut sections = Sections::new();
     let mut rows = Vec::new();
     let lines = include_str!("fields.tsv")
@@ -103,7 +103,7 @@ static SECTIONS: LazyLock<Sections> = LazyLock::new(|| {
     sections
 });
 
-static WORDS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, i64)>>> = LazyLock::new(|| {
+static WORDS: Lazy<BTreeMap<&'static str, Vec<(&'static str, i64)>>> = Lazy::new(|| {
     let lines = include_str!("words.tsv")
         .lines()
         .filter(|line| !line.starts_with('#'));

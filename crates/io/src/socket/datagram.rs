@@ -2,6 +2,7 @@
 
 use std::io;
 
+use heap::resource::Resource;
 use rustix::net::RecvFlags;
 use socket2::Type;
 
@@ -20,6 +21,7 @@ pub struct Datagram {
     /// The addresses it is for.
     pub family: Family,
     socket: Option<Socket>,
+    _resource: Resource,
 }
 
 impl Datagram {
@@ -34,6 +36,7 @@ impl Datagram {
             timeout: Timeout::default(),
             family,
             socket,
+            _resource: Resource::new(|| "a UDP socket".to_owned()),
         })
     }
 

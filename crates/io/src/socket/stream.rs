@@ -3,6 +3,7 @@
 use std::io::{ErrorKind, Read, Write};
 use std::time::Instant;
 
+use heap::resource::Resource;
 use socket2::{SockAddr, Type};
 
 use super::failure::is_pending;
@@ -40,6 +41,7 @@ pub struct Stream {
     socket: Option<Socket>,
     reader: Reader,
     pub(super) tls: Option<Box<Tls>>,
+    _resource: Resource,
 }
 
 impl Stream {
@@ -56,6 +58,7 @@ impl Stream {
             socket: None,
             reader: Reader::default(),
             tls: None,
+            _resource: Resource::new(|| "a TCP socket".to_owned()),
         }
     }
 

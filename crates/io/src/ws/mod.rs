@@ -20,6 +20,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use heap::resource::Resource;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_tungstenite::tungstenite::protocol::WebSocketConfig;
 
@@ -138,6 +139,7 @@ pub struct WsEndpoint {
     /// The port of a server.
     port: Option<u16>,
     task: Option<Task>,
+    _resource: Resource,
 }
 
 impl WsEndpoint {
@@ -203,6 +205,7 @@ impl WsEndpoint {
             open: RefCell::default(),
             port: None,
             task,
+            _resource: Resource::new(|| "a WebSocket".to_owned()),
         }
     }
 

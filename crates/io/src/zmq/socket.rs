@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::ffi::{c_int, c_long, c_short};
 use std::rc::Rc;
 
+use heap::resource::Resource;
 use zmq_sys as ffi;
 
 use super::context::Context;
@@ -32,6 +33,7 @@ pub struct Socket {
     monitor: RefCell<Option<Monitor>>,
     /// Dropped after the socket: a context must not end before its sockets.
     context: Rc<Context>,
+    _resource: Resource,
 }
 
 impl Socket {
@@ -46,6 +48,7 @@ impl Socket {
             connection_names: RefCell::default(),
             monitor: RefCell::default(),
             context: context.clone(),
+            _resource: Resource::new(|| "a ZeroMQ socket".to_owned()),
         })
     }
 

@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use heap::resource::Resource;
 use tokio::task::JoinSet;
 use tokio::time::Instant;
 
@@ -60,6 +61,7 @@ pub struct ZmqServer {
     connections: Arc<Connections>,
     stop: Arc<AtomicBool>,
     _accepting: Task,
+    _resource: Resource,
 }
 
 /// All connections that last.
@@ -98,6 +100,7 @@ impl ZmqServer {
             connections,
             stop,
             _accepting: accepting,
+            _resource: Resource::new(|| "the server of the ZeroMQ remote API".to_owned()),
         })
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Numbers and names are two ways to one value. Where values are stored is said in `engine_values`.
 
+use heap::Lazy;
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
 use crate::{Data, SceneError, SceneResult, ValueType};
 
@@ -152,7 +152,7 @@ pub fn engine_params(owner: EngineOwner) -> impl Iterator<Item = &'static Engine
 type Row = (EngineParam, Vec<i64>, Option<(i64, i64)>);
 
 fn rows() -> &'static [Row] {
-    static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| TABLE.lines().map(row).collect());
+    static ROWS: Lazy<Vec<Row>> = Lazy::new(|| TABLE.lines().map(row).collect());
     &ROWS
 }
 
@@ -198,7 +198,7 @@ fn owner_of(part: &str) -> Option<EngineOwner> {
 
 /// The parameter with that number (`sim.bullet_*`, `sim.ode_*` and so on).
 pub(crate) fn numbered(number: i64) -> Option<&'static Numbered> {
-    static NUMBERS: LazyLock<BTreeMap<i64, Numbered>> = LazyLock::new(numbers);
+    static NUMBERS: Lazy<BTreeMap<i64, Numbered>> = Lazy::new(numbers);
     NUMBERS.get(&number)
 }
 

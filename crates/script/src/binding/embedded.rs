@@ -22,7 +22,7 @@ impl Embedded {
     /// Compiled once per process. Error positions read `[string "name"]` as in scripts.
     pub(crate) fn bytecode(&self, name: &str) -> &Bytecode {
         self.bytecode.get_or_init(|| {
-            Bytecode::compile(self.source.as_bytes(), name)
+            heap::outside(|| Bytecode::compile(self.source.as_bytes(), name))
                 .expect("a test compiles every embedded file")
         })
     }

@@ -4,6 +4,7 @@ mod bind;
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::{Arc, OnceLock};
 
 use super::ApiFn;
@@ -202,7 +203,11 @@ pub fn member_by_rule(global: &str) -> Option<String> {
 /// The modules of one simulator.
 pub struct Modules {
     /// Their names and functions.
-    pub registry: Arc<Registry>,
+    #[expect(
+        clippy::redundant_allocation,
+        reason = "what scripts hold of it is counted in the memory of the simulator"
+    )]
+    pub registry: Rc<Arc<Registry>>,
     /// Their state for the simulator.
     pub states: States,
 }
@@ -305,7 +310,7 @@ impl Registry {
     /// The types that a function is declared to return: a native one by its row, one in Lua by the comment above it. None without any.
     pub fn result_types(&self, name: &str) -> Option<&[&'static str]> {
         self.result_types
-            .get_or_init(|| self.declared_result_types())
+            .get_or_init(|| heap::outside(|| self.declared_result_types()))
             .get(name)
             .map(Vec::as_slice)
     }

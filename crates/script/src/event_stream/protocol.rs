@@ -1,7 +1,7 @@
 //! Versions of the event protocol, and the property names of version 4.
 
+use heap::Lazy;
 use std::collections::HashMap;
-use std::sync::LazyLock;
 
 /// The dialect of the stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -42,7 +42,7 @@ const ENGINES: [&str; 5] = ["bullet.", "ode.", "vortex.", "newton.", "mujoco."];
 
 /// Name and meaning of a property in protocol 4. `class` is its path as returned by `sim.getPropertyName`.
 pub(crate) fn renamed(class: &'static str, name: &'static str) -> (&'static str, Meaning) {
-    static TABLE: LazyLock<Renamed> = LazyLock::new(read);
+    static TABLE: Lazy<Renamed> = Lazy::new(read);
     if ENGINES.iter().any(|engine| name.starts_with(engine)) {
         // Few names, built once per class of targets.
         return (

@@ -1,7 +1,8 @@
 //! Properties of a target in the event stream, and which of them a change can affect (spec: events 8).
 
+use heap::{Lazy, outside};
 use std::collections::BTreeMap;
-use std::sync::{LazyLock, Mutex};
+use std::sync::Mutex;
 
 use crate::event_stream::protocol::{Meaning, Protocol, renamed};
 use crate::property::{Class, Row, flags};
@@ -188,12 +189,14 @@ fn is_sent(row: &Row) -> bool {
 
 /// The properties sent for targets of that class: computed once per process.
 pub fn keys(class: &'static Class) -> &'static Keys {
-    static KNOWN: LazyLock<Mutex<BTreeMap<usize, &'static Keys>>> = LazyLock::new(Mutex::default);
+    static KNOWN: Lazy<Mutex<BTreeMap<usize, &'static Keys>>> = Lazy::new(Mutex::default);
     let mut known = KNOWN
         .lock()
         .expect("nothing panics while it holds the lock");
     let address = std::ptr::from_ref(class) as usize;
-    known
-        .entry(address)
-        .or_insert_with(|| Box::leak(Box::new(Keys::of_class(class))))
+    outside(|| {
+        known
+            .entry(address)
+            .or_insert_with(|| Box::leak(Box::new(Keys::of_class(class))))
+    })
 }

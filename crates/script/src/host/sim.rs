@@ -81,7 +81,7 @@ impl Sim {
             ),
             options,
             modules: Modules {
-                registry,
+                registry: Rc::new(registry),
                 states: States::default(),
             },
             scene: RefCell::new(Scene::new()),

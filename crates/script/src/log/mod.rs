@@ -12,6 +12,8 @@ pub mod verbosity;
 use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 
+use heap::Outer;
+
 use console::{Console, LogLine, OutputStream};
 use located::ScriptFiles;
 use missed::Missed;
@@ -21,7 +23,7 @@ use twox_hash::XxHash3_64;
 
 /// The way to the console of one simulator.
 pub struct Log {
-    console: RefCell<Box<dyn Console>>,
+    console: RefCell<Outer<Box<dyn Console>>>,
     verbosity: Cell<i64>,
     /// Origin, level and text of the lines that are to be logged only once.
     logged_once: RefCell<HashSet<(String, i64, String)>>,
@@ -38,7 +40,7 @@ pub struct Log {
 impl Log {
     pub(super) fn new(console: Box<dyn Console>, verbosity: i64) -> Self {
         Self {
-            console: RefCell::new(console),
+            console: RefCell::new(Outer::new(console)),
             verbosity: Cell::new(verbosity),
             logged_once: RefCell::default(),
             errors: Cell::new(0),
@@ -119,7 +121,9 @@ impl Log {
             self.recent
                 .borrow_mut()
                 .push(|| RecentLine::of_log(line, script));
-            self.console.borrow_mut().log(line);
+            self.console
+                .borrow_mut()
+                .with_mut(|console| console.log(line));
         }
     }
 
@@ -140,7 +144,9 @@ impl Log {
             text: String::from_utf8_lossy(line).into_owned(),
             located: None,
         });
-        self.console.borrow_mut().print(line, time);
+        self.console
+            .borrow_mut()
+            .with_mut(|console| console.print(line, time));
     }
 
     /// Keeps lines from now on, for [`take_recent`](Self::take_recent).
@@ -160,12 +166,16 @@ impl Log {
 
     /// A script could not write, since nobody reads the pipe.
     pub(super) fn pipe_closed(&self) {
-        self.console.borrow_mut().pipe_closed();
+        self.console
+            .borrow_mut()
+            .with_mut(|console| console.pipe_closed());
     }
 
     /// Output of a script to a stream of the process.
     pub(super) fn write(&self, text: &[u8], stream: OutputStream, time: f64) {
         self.add_to_hash(text);
-        self.console.borrow_mut().write(text, stream, time);
+        self.console
+            .borrow_mut()
+            .with_mut(|console| console.write(text, stream, time));
     }
 }

@@ -150,7 +150,7 @@ impl Pool {
             (block.start.as_ptr().cast(), block.size)
         });
         // SAFETY: `base` can be called, and the block is one of its own.
-        unsafe { (self.base.function)(self.base.data, old, old_size, size) }
+        heap::in_scripts(|| unsafe { (self.base.function)(self.base.data, old, old_size, size) })
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].
@@ -190,7 +190,7 @@ impl Pool {
     fn add_chunk(&mut self) {
         let total: usize = self.chunks.iter().map(Vec::capacity).sum();
         let lines = (total / 4).clamp(MIN_CHUNK, MAX_CHUNK);
-        let mut chunk = Vec::<Line>::with_capacity(lines);
+        let mut chunk = heap::in_scripts(|| Vec::<Line>::with_capacity(lines));
         let start = NonNull::from(chunk.spare_capacity_mut()).cast();
         self.chunks.push(chunk);
         self.rest = advanced(start, OFFSET);

@@ -37,7 +37,8 @@ impl State {
         let owner = Rc::new(owner);
         // SAFETY: what makes this unsafe is what scripts may load: native libraries and bytecode. They may as in the original, or,
         // where `Options::permissions` do not allow native code, start-up takes both away before a script runs.
-        let lua = unsafe { Lua::unsafe_new_with(StdLib::NONE, LuaOptions::default()) };
+        let new = || unsafe { Lua::unsafe_new_with(StdLib::NONE, LuaOptions::default()) };
+        let lua = heap::in_scripts(new);
         if owner.budget.is_limited() {
             // From here on mlua expects memory to be refused, and allocates in protected calls only. The limit itself is the budget's.
             lua.set_memory_limit(usize::MAX)
@@ -98,6 +99,9 @@ fn install_pool(main: NonNull<ffi::lua_State>, budget: Rc<Budget>) -> NonNull<Po
             Allocator { function, data },
         ))));
         ffi::lua_setallocf(main.as_ptr(), allocate, pool.as_ptr().cast());
+        if let Some(scripts) = heap::Scripts::current() {
+            scripts.abandon_block();
+        }
         pool
     }
 }

@@ -4,9 +4,9 @@
 mod accessors;
 mod lines;
 
+use heap::Lazy;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
-use std::sync::LazyLock;
 
 use super::access::Accessor;
 pub use crate::event_stream::protocol::later_names;
@@ -221,7 +221,7 @@ fn class(id: ClassId) -> &'static Class {
 }
 
 fn classes() -> &'static [Class] {
-    static ALL: LazyLock<Vec<Class>> = LazyLock::new(|| {
+    static ALL: Lazy<Vec<Class>> = Lazy::new(|| {
         let parts = parts();
         CLASSES.iter().map(|spec| build(spec, &parts)).collect()
     });

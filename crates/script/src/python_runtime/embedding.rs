@@ -6,6 +6,8 @@ use std::cell::Cell;
 use std::rc::{Rc, Weak};
 use std::time::Duration;
 
+use heap::{Handle, Outer, brought_in, enter_and_copy};
+
 use super::conversation::Conversation;
 use super::message::{self, Message};
 use crate::binding::registry::Member;
@@ -51,6 +53,7 @@ pub trait EmbeddedScript {
 pub struct ScriptCalls {
     env: Weak<Env>,
     count: Cell<u64>,
+    heap: Option<Handle>,
 }
 
 impl ScriptCalls {
@@ -58,6 +61,7 @@ impl ScriptCalls {
         Self {
             env: Rc::downgrade(env),
             count: Cell::new(0),
+            heap: Handle::current(),
         }
     }
 
@@ -72,6 +76,10 @@ impl ScriptCalls {
     /// # Errors
     /// When the script has ended or is to end.
     pub fn serve(&self, message: &[u8]) -> Result<Vec<u8>, String> {
+        enter_and_copy(self.heap, || self.serve_inside(message))
+    }
+
+    fn serve_inside(&self, message: &[u8]) -> Result<Vec<u8>, String> {
         let env = self.env.upgrade().ok_or("the script has ended.")?;
         let link = Conversation::link_of(&env);
         self.count.set(self.count.get() + 1);
@@ -90,6 +98,42 @@ impl ScriptCalls {
             link: &link,
         }
         .answer_of(&name, &args))
+    }
+}
+
+/// A script in the program's memory.
+pub(super) struct OutsideScript(Outer<Rc<dyn EmbeddedScript>>);
+
+impl OutsideScript {
+    /// What `host` starts, in its own memory.
+    pub(super) fn start(
+        host: &dyn PythonHost,
+        modules: &[u8],
+        calls: ScriptCalls,
+    ) -> Result<Self, String> {
+        let script = heap::outside(|| host.start(modules, calls));
+        match script {
+            Ok(script) => Ok(Self(Outer::new(script))),
+            Err(reason) => Err(brought_in(move || reason)),
+        }
+    }
+}
+
+impl EmbeddedScript for OutsideScript {
+    fn ask(&self, message: &[u8]) -> Result<Vec<u8>, String> {
+        brought_in(|| self.0.with(|script| script.ask(message)))
+    }
+
+    fn hand_over(&self, message: &[u8]) -> Result<(), String> {
+        brought_in(|| self.0.with(|script| script.hand_over(message)))
+    }
+
+    fn take(&self, limit: Duration) -> Result<Option<Vec<u8>>, String> {
+        brought_in(|| self.0.with(|script| script.take(limit)))
+    }
+
+    fn close(&self) {
+        self.0.with(|script| script.close());
     }
 }
 

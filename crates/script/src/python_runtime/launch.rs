@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::embedding::{EmbeddedScript, PythonHost, ScriptCalls};
+use super::embedding::{EmbeddedScript, OutsideScript, PythonHost, ScriptCalls};
 use crate::host::{Env, Script, Sim};
 use io::PeerProcess;
 use permissions::Denied;
@@ -115,8 +115,8 @@ pub(super) fn embed(
     env: &Rc<Env>,
 ) -> Result<Rc<dyn EmbeddedScript>, LaunchError> {
     sim.options.permissions.check_run("python3")?;
-    host.start(&modules(&[EMBEDDED]), ScriptCalls::new(env))
-        .map_err(LaunchError::NotEmbedded)
+    let script = OutsideScript::start(host, &modules(&[EMBEDDED]), ScriptCalls::new(env));
+    Ok(Rc::new(script.map_err(LaunchError::NotEmbedded)?))
 }
 
 /// Starts a process without a script.

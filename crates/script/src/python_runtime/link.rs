@@ -7,6 +7,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use capture::{Recorded, Tape};
+use heap::resource::Resource;
 
 use super::embedding::EmbeddedScript;
 use super::message::Message;
@@ -44,6 +45,8 @@ pub(super) struct Link {
     peer: RefCell<Option<Peer>>,
     /// The tape on which the messages of a process come.
     tape: RefCell<Tape>,
+    /// While it is open.
+    resource: RefCell<Option<Resource>>,
     /// The thread of the script is running: the process has the turn, and the simulator does not wait for it.
     pub busy: Cell<bool>,
     /// A message of the running thread that was received and not handled yet.
@@ -65,6 +68,8 @@ impl Link {
         if !matches!(peer, Peer::Embedded(_)) {
             self.tape.replace(tape.clone());
         }
+        let resource = Resource::new(|| "the variables of a script in Python".to_owned());
+        self.resource.replace(Some(resource));
         self.peer.replace(Some(peer));
     }
 
@@ -83,6 +88,7 @@ impl Link {
     /// Ends the process, which may write its files before.
     pub(super) fn close(&self) {
         let peer = self.peer.take();
+        self.resource.take();
         if let Some(Peer::Embedded(script)) = peer {
             script.close();
         }
@@ -91,6 +97,7 @@ impl Link {
     /// Ends the process, which has no more time.
     pub(super) fn kill(&self) {
         let peer = self.peer.take();
+        self.resource.take();
         match peer {
             Some(Peer::Process(mut process)) => process.kill(),
             Some(Peer::Embedded(script)) => script.close(),
@@ -300,6 +307,7 @@ impl Link {
 
     /// Why the process is not there any more.
     fn ended(&self, error: &PeerError) -> String {
+        self.resource.take();
         let Some(Peer::Process(mut process)) = self.peer.take() else {
             return "the Python process of this script has ended.".into();
         };

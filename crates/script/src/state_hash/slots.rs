@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use std::sync::{LazyLock, Mutex};
+use std::sync::Mutex;
+
+use heap::{Lazy, outside};
 
 use super::bytes::{Bytes, Key64};
 use super::readers::{DIRECT, Direct, TREE};
@@ -101,14 +103,15 @@ pub(super) const GENERAL: Topics = Topics::ALL.without(FREQUENT);
 impl Slots {
     /// Of objects of that kind: made once per process.
     pub(super) fn of_kind(kind: &Kind) -> &'static Self {
-        static KNOWN: LazyLock<Mutex<BTreeMap<i64, &'static Slots>>> =
-            LazyLock::new(Mutex::default);
+        static KNOWN: Lazy<Mutex<BTreeMap<i64, &'static Slots>>> = Lazy::new(Mutex::default);
         let mut known = KNOWN
             .lock()
             .expect("nothing panics while it holds the lock");
-        known
-            .entry(kind.type_number())
-            .or_insert_with(|| Box::leak(Box::new(Self::new_of_kind(kind))))
+        outside(|| {
+            known
+                .entry(kind.type_number())
+                .or_insert_with(|| Box::leak(Box::new(Self::new_of_kind(kind))))
+        })
     }
 
     fn new_of_kind(kind: &Kind) -> Self {
@@ -128,7 +131,7 @@ impl Slots {
 
     /// Of the scene.
     pub(super) fn of_scene() -> &'static Self {
-        static SLOTS: LazyLock<Slots> = LazyLock::new(|| Slots {
+        static SLOTS: Lazy<Slots> = Lazy::new(|| Slots {
             slots: properties_of(scene_class()).map(Slot::property).collect(),
             direct: 0,
         });

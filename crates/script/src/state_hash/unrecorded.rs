@@ -1,7 +1,8 @@
 //! What no journal records: the clock, parameters of the application, random numbers, the states of scripts.
 
 use std::rc::Rc;
-use std::sync::LazyLock;
+
+use heap::Lazy;
 
 use super::bytes::Key64;
 use super::hashes::{Hashes, Sink, changed};
@@ -61,7 +62,7 @@ impl Hashes {
     }
 
     fn hash_of_script(&mut self, script: &Script) -> u64 {
-        static KEY: LazyLock<Key64> = LazyLock::new(|| Key64::of_name(SCRIPT));
+        static KEY: Lazy<Key64> = Lazy::new(|| Key64::of_name(SCRIPT));
         self.bytes.int(script.state());
         if let Some(runtime) = script.current_runtime() {
             self.random_place(runtime.env.random.borrow().place());

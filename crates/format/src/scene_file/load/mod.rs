@@ -60,6 +60,22 @@ impl SceneFile {
         Self::new(read_file(bytes, None, &Permissions::none())?)
     }
 
+    /// The same, with nothing in common with this one.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), which has taken the same file already.
+    pub fn copied(&self) -> FileResult<Self> {
+        let source = |kind: &Kind| match kind {
+            Kind::Script(script) => script.source.clone(),
+            _ => None,
+        };
+        let sources = ScriptSources {
+            objects: self.kinds.iter().map(source).collect(),
+            attached: self.attached_sources.clone(),
+        };
+        Ok(Self::new(self.file.clone())?.with_sources(sources))
+    }
+
     /// Takes the objects and scripts out of a file.
     ///
     /// # Errors

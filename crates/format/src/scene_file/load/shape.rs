@@ -150,7 +150,7 @@ fn part(
     })
 }
 
-static IDENTITY: std::sync::LazyLock<Pose> = std::sync::LazyLock::new(Pose::identity);
+static IDENTITY: heap::Lazy<Pose> = heap::Lazy::new(Pose::identity);
 
 /// The frame of the stored vertices in the node.
 fn vertex_frame(node: &MeshNode, data: &MeshData, frame: &Pose) -> Pose {

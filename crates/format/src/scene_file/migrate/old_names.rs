@@ -2,21 +2,21 @@
 //!
 //! Two tables: names from before the namespaces, as V-REP had them, and names that changed in later versions.
 
+use heap::Lazy;
 use std::collections::HashMap;
-use std::sync::LazyLock;
 
 /// `simGetObjectHandle<TAB>sim.getObjectHandle`, also for constants and functions of plugins. Replaced in files of any version.
 const OLD: &str = include_str!("old_names.tsv");
 /// `40201<TAB>old<TAB>new`: replaced in files of programs older than that.
 const RENAMED: &str = include_str!("renamed.tsv");
 
-static NAMES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| {
+static NAMES: Lazy<HashMap<&str, &str>> = Lazy::new(|| {
     OLD.lines()
         .filter_map(|line| line.split_once('\t'))
         .collect()
 });
 
-static RENAMES: LazyLock<HashMap<&str, (u16, &str)>> = LazyLock::new(|| {
+static RENAMES: Lazy<HashMap<&str, (u16, &str)>> = Lazy::new(|| {
     let row = |line: &'static str| {
         let mut columns = line.split('\t');
         let (version, old, new) = (columns.next()?, columns.next()?, columns.next()?);

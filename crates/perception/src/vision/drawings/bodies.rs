@@ -2,11 +2,11 @@
 
 use geometry::PrimitiveKind;
 use geometry::primitive::tessellate;
+use heap::Lazy;
 use nalgebra::Vector3;
 use rendering::{Material, Mesh};
 use std::f64::consts::TAU;
 use std::rc::Rc;
-use std::sync::LazyLock;
 
 use crate::vision::models::ModelPart;
 use crate::vision::palette::Palette;
@@ -19,10 +19,10 @@ use scene::drawing::{DrawingItem, DrawingStyle};
 /// Corners of a disc.
 const DISC_CORNERS: usize = 16;
 /// Triangles of a ball one metre wide, and the vertices that are their corners.
-static BALL: LazyLock<geometry::Mesh> =
-    LazyLock::new(|| tessellate(PrimitiveKind::Spheroid, [1.0; 3], false).unwrap_or_default());
-static CUBE: LazyLock<geometry::Mesh> =
-    LazyLock::new(|| tessellate(PrimitiveKind::Cuboid, [1.0; 3], false).unwrap_or_default());
+static BALL: Lazy<geometry::Mesh> =
+    Lazy::new(|| tessellate(PrimitiveKind::Spheroid, [1.0; 3], false).unwrap_or_default());
+static CUBE: Lazy<geometry::Mesh> =
+    Lazy::new(|| tessellate(PrimitiveKind::Cuboid, [1.0; 3], false).unwrap_or_default());
 
 /// Triangles of many items.
 #[derive(Default)]

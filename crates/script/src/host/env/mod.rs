@@ -31,7 +31,7 @@ pub struct Env {
     /// The interpreter this belongs to; there from its creation on.
     pub(crate) runtime: OnceCell<Weak<Runtime>>,
     /// The functions and modules that the script can reach.
-    pub registry: Arc<Registry>,
+    pub registry: Rc<Arc<Registry>>,
     /// Callbacks whose function existed after the chunk had run.
     pub defined: Cell<u64>,
     /// Callbacks that have or had hooks: most have none, which is all that a call needs to know.

@@ -139,6 +139,14 @@ impl Script {
         }
     }
 
+    /// Replaces its text, which comes from a file or from a program.
+    pub fn set_text(&self, language: &str, code: &[u8], file: Option<String>) {
+        let mut detached = self.detached.borrow_mut();
+        detached.language = language.to_owned();
+        detached.code = code.to_vec();
+        self.file.replace(file);
+    }
+
     /// The object an old script is attached to, instead of being one itself.
     pub fn owner(&self) -> Option<Handle> {
         self.detached.borrow().owner

@@ -1,0 +1,117 @@
+//! Snapshots of a heap.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use super::image::Image;
+use super::region::Region;
+use super::resource::open_in;
+use super::space::Address;
+use super::{Heap, current};
+
+/// All that a heap held at a moment. Unchanged pages are shared with other snapshots of the heap.
+#[derive(Debug)]
+pub struct Snapshot {
+    heap: Address,
+    /// Which of the heaps at that place.
+    number: u64,
+    images: Arc<[Image; 2]>,
+}
+
+/// Why there is no snapshot, or why one cannot be brought back.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RestoreError {
+    /// Something is open that is no memory.
+    Open(Vec<String>),
+    /// The snapshot is of another heap.
+    OtherHeap,
+    /// The thread is inside the heap.
+    Inside,
+}
+
+impl std::fmt::Display for RestoreError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Open(names) => write!(
+                f,
+                "a snapshot does not reach {}: close it first",
+                names.join(", ")
+            ),
+            Self::OtherHeap => f.write_str("the snapshot is of another simulator"),
+            Self::Inside => f.write_str("the simulator is at work"),
+        }
+    }
+}
+
+impl std::error::Error for RestoreError {}
+
+impl Heap {
+    /// Copies what the heap holds.
+    ///
+    /// # Errors
+    /// When something is open that is no memory, or this thread is inside.
+    pub fn snapshot(&self) -> Result<Snapshot, RestoreError> {
+        self.check()?;
+        let last = self.last.borrow().clone();
+        let of = |at: usize, region: *mut Region| {
+            // SAFETY: the owner's thread is here and not inside; those that work for it are not either.
+            unsafe {
+                (*region).take_returned();
+                Image::of(region, last.as_deref().map(|images| &images[at]))
+            }
+        };
+        let [general, scripts] = self.slot.regions();
+        let images = Arc::new([of(0, general), of(1, scripts)]);
+        self.last.replace(Some(Arc::clone(&images)));
+        let heap = self.slot.address();
+        heap.snapshots().fetch_add(1, Ordering::Relaxed);
+        Ok(Snapshot {
+            heap,
+            number: self.number,
+            images,
+        })
+    }
+
+    /// Brings back what the heap held: everything that came after is gone, without its destructors.
+    ///
+    /// # Errors
+    /// When something is open that is no memory, this thread is inside, or the snapshot is of another heap.
+    ///
+    /// # Safety
+    /// Nothing outside refers to memory that the heap got after the snapshot, and nothing that the heap held then and that lies outside is gone.
+    pub unsafe fn restore(&self, snapshot: &Snapshot) -> Result<(), RestoreError> {
+        self.check()?;
+        if snapshot.number != self.number {
+            return Err(RestoreError::OtherHeap);
+        }
+        for (region, image) in self.slot.regions().into_iter().zip(&*snapshot.images) {
+            // SAFETY: the caller's promise; nobody is inside.
+            unsafe { image.restore(region) };
+        }
+        self.last.replace(Some(Arc::clone(&snapshot.images)));
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), RestoreError> {
+        let open = open_in(self.slot.address());
+        if !open.is_empty() {
+            return Err(RestoreError::Open(open));
+        }
+        (current::heap() != Some(self.slot.address()))
+            .then_some(())
+            .ok_or(RestoreError::Inside)
+    }
+}
+
+impl Snapshot {
+    /// Bytes that only this snapshot holds.
+    pub fn own_bytes(&self) -> usize {
+        self.images.iter().map(Image::own_bytes).sum()
+    }
+}
+
+impl Drop for Snapshot {
+    fn drop(&mut self) {
+        self.heap.snapshots().fetch_sub(1, Ordering::Relaxed);
+    }
+}

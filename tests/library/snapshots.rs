@@ -1,0 +1,107 @@
+//! A simulator that is brought back goes on with the same bytes as the first time.
+
+use std::backtrace::Backtrace;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use geometry::pose::pose_to_array;
+use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
+use test_support::parallel;
+
+use super::determinism::{on_a_large_stack, scenes};
+
+/// Steps before the first snapshot, between snapshots, and after the last one.
+const STEPS: u64 = 12;
+
+/// Blocks that were freed on the other side of the border of a heap: each is shown with the way to it.
+static CROSSINGS: AtomicUsize = AtomicUsize::new(0);
+
+/// Keeps all lines, with the bits of all poses after each step.
+#[derive(Clone, Default)]
+struct Transcript(Rc<RefCell<String>>);
+
+impl Console for Transcript {
+    fn print(&mut self, line: &[u8], _: f64) {
+        *self.0.borrow_mut() += &format!("{}\n", String::from_utf8_lossy(line));
+    }
+
+    fn log(&mut self, line: &LogLine<'_>) {
+        *self.0.borrow_mut() += &format!("{}\n", line.decorated());
+    }
+}
+
+impl Transcript {
+    /// What follows while the simulator takes steps.
+    fn of_steps(&self, sim: &mut Simulator, steps: u64) -> String {
+        self.0.borrow_mut().clear();
+        for _ in 0..steps {
+            sim.iterate();
+            let scene = sim.scene();
+            for object in scene.objects() {
+                let pose = scene.world_pose(object.handle()).expect("it is there");
+                let bits = pose_to_array(&pose).map(f64::to_bits);
+                *self.0.borrow_mut() += &format!("{} {bits:x?}\n", object.handle().raw());
+            }
+        }
+        self.0.take()
+    }
+}
+
+fn simulator_of(scene: &Path) -> (Simulator, Transcript) {
+    let transcript = Transcript::default();
+    let options = Options {
+        package_dirs: vec![scene.parent().expect("scenes lie in a folder").to_owned()],
+        ..Options::default()
+    };
+    let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
+    sim.open(scene, ScriptKind::Customization)
+        .expect("the scene loads");
+    (sim, transcript)
+}
+
+/// Each future of a scene is the same, from the start and from the middle of the run, in whatever order they are brought back.
+#[test]
+fn every_scene_goes_on_as_the_first_time() {
+    parallel::map(&scenes(), |scene| on_a_large_stack(futures, scene.clone()));
+}
+
+fn futures(scene: PathBuf) {
+    heap::on_crossing(|crossing, size| {
+        CROSSINGS.fetch_add(1, Ordering::Relaxed);
+        eprintln!("{crossing:?}: {size} bytes\n{}", Backtrace::force_capture());
+    });
+    let (mut sim, transcript) = simulator_of(&scene);
+    let stopped = sim.snapshot().expect("nothing is open");
+    sim.start();
+    let mut moments = vec![stopped];
+    let mut texts = Vec::new();
+    for _ in 0..4 {
+        texts.push(transcript.of_steps(&mut sim, STEPS));
+        moments.push(sim.snapshot().expect("nothing is open"));
+    }
+    texts.push(transcript.of_steps(&mut sim, STEPS));
+    for at in [2, 4, 1, 3, 1, 2] {
+        sim.restore(&moments[at]).expect("nothing is open");
+        assert_same(&texts[at], &transcript.of_steps(&mut sim, STEPS), &scene);
+    }
+    sim.restore(&moments[0]).expect("nothing is open");
+    sim.start();
+    for text in &texts {
+        assert_same(text, &transcript.of_steps(&mut sim, STEPS), &scene);
+    }
+    sim.stop();
+    drop(sim);
+    let crossings = CROSSINGS.load(Ordering::Relaxed);
+    assert_eq!(crossings, 0, "blocks are freed beyond the border of a heap");
+}
+
+fn assert_same(first: &str, second: &str, scene: &Path) {
+    let difference = first.lines().zip(second.lines()).find(|(a, b)| a != b);
+    assert!(
+        first == second,
+        "{}: the second future is another, first at {difference:?}",
+        scene.display()
+    );
+}
