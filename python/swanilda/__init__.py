@@ -14,9 +14,9 @@ import atexit
 import os
 
 from ._simulator import Script, Simulator
-from ._swanilda import Error, __version__, close_all, forget_after_fork
+from ._swanilda import Error, Snapshot, __version__, close_all, forget_after_fork
 
-__all__ = ["Error", "Script", "Simulator", "__version__"]
+__all__ = ["Error", "Script", "Simulator", "Snapshot", "__version__"]
 
 # The scripts of simulators that are still open clean up while Python can run them.
 atexit.register(close_all)

@@ -43,6 +43,43 @@ def test_the_same_seed_is_the_same_run():
     assert run() == run()
 
 
+def test_a_snapshot_is_brought_back_with_the_same_future():
+    with swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=7, quiet=True) as s:
+        sim = s.require("sim")
+        s.start()
+        s.step(20)
+        before, hash_then = s.snapshot(), s.state_hash()
+        assert before.own_bytes > 0
+
+        def future():
+            hashes = []
+            for _ in range(20):
+                s.step()
+                hashes.append((s.state_hash(), sim.getSimulationTime()))
+            return hashes
+
+        first = future()
+        for _ in range(3):
+            s.restore(before)
+            assert s.state_hash() == hash_then
+            assert future() == first
+        with swanilda.Simulator(quiet=True) as other:
+            with pytest.raises(swanilda.Error, match="another simulator"):
+                other.restore(before)
+
+
+def test_no_snapshot_forgets_variables_of_python(simulator):
+    class Robot:
+        def sysCall_init(self):
+            self.count = 1
+
+    script = simulator.add_script(Robot)
+    with pytest.raises(swanilda.Error, match="variables of a script"):
+        simulator.snapshot()
+    simulator.require("sim").removeObjects([script.handle])
+    simulator.snapshot()
+
+
 def test_values_pass_both_ways(simulator, sim):
     echo = simulator.add_script("function echo(...) return ... end")
     for value in [True, False, 5, -(2**63), 0.5, math.inf, "text", "ä", b"", b"\0\xff", [1, 2.5, "x"], {"a": [1], 2: "b"}]:
