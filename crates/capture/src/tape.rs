@@ -26,6 +26,7 @@ struct State {
     /// Inputs that are being read.
     depth: usize,
     on_end: Option<OnEnd>,
+    on_lack: Option<OnLack>,
 }
 
 enum Mode {
@@ -35,6 +36,9 @@ enum Mode {
 
 /// Called when a replay cannot go on.
 type OnEnd = Box<dyn FnMut(&Verdict) + Send>;
+
+/// Called when a capture lacks something, in words.
+type OnLack = Box<dyn FnMut(&str) + Send>;
 
 /// The capture has no such input: the replay is over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -115,6 +119,7 @@ impl Tape {
             mode,
             depth: 0,
             on_end: None,
+            on_lack: None,
         })))))
     }
 
@@ -127,6 +132,13 @@ impl Tape {
     pub fn on_end(&self, on_end: impl FnMut(&Verdict) + Send + 'static) {
         if let Some(mut state) = self.lock() {
             state.on_end = Some(Box::new(on_end));
+        }
+    }
+
+    /// Calls `on_lack` when something is not captured.
+    pub fn on_lack(&self, on_lack: impl FnMut(&str) + Send + 'static) {
+        if let Some(mut state) = self.lock() {
+            state.on_lack = Some(Box::new(on_lack));
         }
     }
 
@@ -306,6 +318,12 @@ impl Tape {
     /// Notes something that is not captured, so that a replay will differ.
     pub fn lacks(&self, what: &str) {
         self.captured(|capturing| capturing.add(&Record::Lacks(what.to_owned())));
+        if self.is_capturing()
+            && let Some(mut state) = self.lock()
+            && let Some(on_lack) = &mut state.on_lack
+        {
+            on_lack(what);
+        }
     }
 
     /// The run differs, for a reason that the tape does not know.

@@ -69,6 +69,8 @@ impl Sim {
         let plugin = match loaded.plugins.get(namespace) {
             Some(plugin) => Ok(plugin),
             None => self.options.plugin_file(name).and_then(|file| {
+                let tape = self.options.permissions.tape();
+                tape.lacks(&format!("what the native plugin '{name}' does"));
                 loaded.plugins.note_calls(self.options.plugin_note.clone());
                 loaded
                     .plugins

@@ -39,8 +39,14 @@ impl CaptureArgs {
         let Some(path) = self.capture.as_ref().filter(|_| !self.tape.is_on()) else {
             return Ok(self.tape.clone());
         };
-        Tape::capturing(path, &header()?)
-            .map_err(|error| format!("cannot write {}: {error}", path.display()))
+        let tape = Tape::capturing(path, &header()?)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        tape.on_lack(|what| {
+            complain(&format!(
+                "not captured: {what}. A replay may differ from there on"
+            ));
+        });
+        Ok(tape)
     }
 }
 

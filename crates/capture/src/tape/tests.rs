@@ -199,6 +199,26 @@ fn a_capture_that_was_cut_ends_with_its_last_step() {
 }
 
 #[test]
+fn what_is_not_captured_is_said_and_no_part_of_the_run() {
+    let folder = Folder::new();
+    let said = Arc::new(AtomicUsize::new(0));
+    let told = Arc::clone(&said);
+    folder.capture(|tape| {
+        tape.on_lack(move |what| {
+            told.fetch_add(what.len(), Ordering::Relaxed);
+        });
+        tape.lacks("a plugin");
+        tape.step(|| 1);
+    });
+    assert_eq!(said.load(Ordering::Relaxed), "a plugin".len());
+    let verdict = folder.replay(|tape| {
+        tape.lacks("a plugin");
+        tape.step(|| 1);
+    });
+    assert_eq!(verdict, Verdict::Same { steps: 1 });
+}
+
+#[test]
 fn tapes_are_equal_to_themselves() {
     let folder = Folder::new();
     let tape = Tape::capturing(&folder.path(), &Header::default()).unwrap();
