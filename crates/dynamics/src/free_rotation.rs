@@ -32,7 +32,7 @@ pub(super) fn tumbles(rigid: &RigidBody) -> bool {
 pub(super) fn complete(rigid: &mut RigidBody, step: f64) {
     let spin = rigid.angvel();
     let speed = spin.length();
-    let made = 2.0 * (speed * step / 2.0).atan();
+    let made = 2.0 * libm::atan(speed * step / 2.0);
     let before = Rotation::from_scaled_axis(-spin * (made / speed)) * rigid.position().rotation;
     let properties = &rigid.mass_properties().local_mprops;
     let (frame, inverse) = (
@@ -78,7 +78,7 @@ impl Tumbling {
     }
 
     fn advance(&mut self, time: f64) {
-        let outer = 1.0 / (2.0 - 2.0_f64.cbrt());
+        let outer = 1.0 / (2.0 - libm::cbrt(2.0));
         for share in [outer, 1.0 - 2.0 * outer, outer] {
             self.split(time * share);
         }

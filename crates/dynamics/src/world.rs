@@ -317,7 +317,7 @@ fn turns_fast(rigid: &RigidBody, step: f64) -> bool {
 fn complete_turn(rigid: &mut RigidBody, step: f64) {
     let (spin, count) = (rigid.angvel(), parts(rigid) as f64);
     let angle = spin.length() * step;
-    let turned = 2.0 * count * (angle / (2.0 * count)).atan();
+    let turned = 2.0 * count * libm::atan(angle / (2.0 * count));
     let missing = Rotation::from_scaled_axis(spin * (step * (1.0 - turned / angle)));
     let com = rigid.center_of_mass();
     let mut pose = *rigid.position();

@@ -209,7 +209,7 @@ fn unequal(
     if x == y && x == third || r <= 0.0 {
         return (mass, inertia);
     }
-    let s = (x * y * third).cbrt() / (2.0 * r);
+    let s = libm::cbrt(x * y * third) / (2.0 * r);
     (mass * s.powi(3), inertia.map(|i| i * s * s))
 }
 
@@ -245,7 +245,9 @@ fn cuboid() -> Parts {
 /// Radius and z of the rings of a unit sphere between the poles.
 fn sphere_rings() -> Vec<(f64, f64)> {
     let angles = (1..RINGS).map(|k| PI * f64::from(k) / f64::from(RINGS));
-    angles.map(|a| (0.5 * a.sin(), 0.5 * a.cos())).collect()
+    angles
+        .map(|a| (0.5 * libm::sin(a), 0.5 * libm::cos(a)))
+        .collect()
 }
 
 /// The rings of a capsule in units of its size: half balls that are as high as half its largest width.
@@ -258,7 +260,7 @@ fn capsule_rings([x, y, z]: [f64; 3]) -> Vec<(f64, f64)> {
     let half = RINGS / 2;
     let angles = (1..=half).map(|k| FRAC_PI_2 * f64::from(k) / f64::from(half));
     let upper: Vec<_> = angles
-        .map(|a| (0.5 * a.sin(), 0.5 - cap * (1.0 - a.cos())))
+        .map(|a| (0.5 * libm::sin(a), 0.5 - cap * (1.0 - libm::cos(a))))
         .collect();
     let lower = upper.iter().rev().map(|(radius, z)| (*radius, -z));
     upper.iter().copied().chain(lower).collect()
@@ -266,7 +268,7 @@ fn capsule_rings([x, y, z]: [f64; 3]) -> Vec<(f64, f64)> {
 
 /// Surface of revolution from top to bottom: rings of radius and z, closed towards points on the axis.
 fn revolve(top: Option<f64>, rings: &[(f64, f64)], bottom: Option<f64>) -> Parts {
-    let turn = |k: u32| (TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
+    let turn = |k: u32| libm::sincos(TAU * f64::from(k) / f64::from(SIDES));
     let ring = |(radius, z): &(f64, f64)| {
         let (radius, z) = (*radius, *z);
         (0..SIDES).map(move |k| [radius * turn(k).1, radius * turn(k).0, z])

@@ -155,12 +155,10 @@ impl Perception {
     /// Directions within the opening angle, equally likely.
     fn random_rays(&mut self, sensor: &ProximitySensor) -> Vec<[f64; 3]> {
         const MAX_RAYS: i64 = 10_000;
-        let lowest = (0.5 * sensor.volume.angle)
-            .clamp(0.0, std::f64::consts::PI)
-            .cos();
+        let lowest = libm::cos((0.5 * sensor.volume.angle).clamp(0.0, std::f64::consts::PI));
         let ray = |_| {
             let z = 1.0 - self.random() * (1.0 - lowest);
-            let (sin, cos) = (TAU * self.random()).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * self.random());
             let across = (1.0 - z * z).max(0.0).sqrt();
             [across * cos, across * sin, z]
         };

@@ -172,7 +172,7 @@ impl Ray {
 type Found = (f64, Vector);
 
 fn hit_mesh(mesh: &TriangleMesh, ray: &Ray, range: [f64; 2], filter: &Filter) -> Option<Found> {
-    let least = filter.max_angle.map_or(0.0, f64::cos);
+    let least = filter.max_angle.map_or(0.0, libm::cos);
     descend(&mesh.tree, ray, range, filter.any, |i, to| {
         let triangle = &mesh.triangles[i];
         let (t, front) = ray.meet(triangle)?;
@@ -188,7 +188,7 @@ fn hit_mesh(mesh: &TriangleMesh, ray: &Ray, range: [f64; 2], filter: &Filter) ->
 }
 
 fn hit_voxels(grid: &VoxelGrid, ray: &Ray, range: [f64; 2], filter: &Filter) -> Option<Found> {
-    let least = filter.max_angle.map_or(0.0, f64::cos);
+    let least = filter.max_angle.map_or(0.0, libm::cos);
     descend(&grid.tree, ray, range, filter.any, |i, to| {
         let sides = cell_sides(ray, &grid.cells[i], grid.half)?;
         let seen = |(t, normal): &Found, wanted: bool| {

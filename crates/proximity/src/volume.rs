@@ -123,7 +123,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(place: &Transform, limit: f64, filter: &'a Filter) -> Self {
-        let least = filter.max_angle.map_or(0.0, f64::cos);
+        let least = filter.max_angle.map_or(0.0, libm::cos);
         let polygons = [Vec::new(), Vec::new()];
         Self {
             origin: place.translation,

@@ -65,10 +65,10 @@ impl Random {
         let (share, first, second) = (self.next(), TAU * self.next(), TAU * self.next());
         let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
         UnitQuaternion::new_normalize(Quaternion::new(
-            b * second.cos(),
-            a * first.sin(),
-            a * first.cos(),
-            b * second.sin(),
+            b * libm::cos(second),
+            a * libm::sin(first),
+            a * libm::cos(first),
+            b * libm::sin(second),
         ))
     }
 }

@@ -56,7 +56,7 @@ impl Fallen {
 /// The angle by which what pointed up is off.
 fn leaning(standing: &Pose, now: &Pose) -> f64 {
     let turn = now.rotation * standing.rotation.inverse();
-    (1.0 - 2.0 * (turn.i * turn.i + turn.j * turn.j)).acos()
+    libm::acos(1.0 - 2.0 * (turn.i * turn.i + turn.j * turn.j))
 }
 
 fn carries_joints(scene: &Scene, base: Handle) -> bool {

@@ -76,3 +76,18 @@ fn files_that_cannot_be_used_are_told() {
         assert!(stderr(&output).contains(reason), "{}", stderr(&output));
     }
 }
+
+/// Lua's own seed of its hashes would give another order in each process.
+#[test]
+fn names_have_the_same_order_in_each_process() {
+    let scene = Scene::new(
+        "local fields, order = {}, {}
+        for i = 1, 40 do fields['field' .. i] = i end
+        for name in pairs(fields) do order[#order + 1] = name end
+        print(table.concat(order, ' '))",
+    );
+    let order = || stdout(&scene.run(&["--steps", "1", "--quiet"]));
+    let first = order();
+    assert_eq!(first.split(' ').count(), 40, "{first}");
+    assert_eq!(first, order());
+}

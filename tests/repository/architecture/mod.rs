@@ -1,6 +1,7 @@
 //! What Cargo does not hold: imports between the rooms of a crate, which point inwards only (docs/ARCHITECTURE.md), and who may do what.
 
 mod circles;
+mod functions;
 mod imports;
 mod page;
 mod rules;

@@ -91,7 +91,7 @@ fn camera_fit_to_view(
         } else {
             1.0
         };
-        let distance = radius / scaling / (0.5 * view.angle.clamp(0.01, 3.0)).sin();
+        let distance = radius / scaling / libm::sin(0.5 * view.angle.clamp(0.01, 3.0));
         let rotation = scene.world_pose(camera)?.rotation;
         Pose::from_parts(
             (centre.coords - rotation * Vector3::z() * distance).into(),

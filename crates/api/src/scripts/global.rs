@@ -190,7 +190,7 @@ fn mantissa_and_exponent(number: f64) -> (f64, i64) {
         return (number, 0);
     }
     // The logarithm may be rounded to the next whole number.
-    let exponent = number.abs().log2().floor() as i32 + 1;
+    let exponent = libm::log2(number.abs()).floor() as i32 + 1;
     let mantissa = number * 0.5_f64.powi(exponent / 2) * 0.5_f64.powi(exponent - exponent / 2);
     match mantissa.abs() {
         1.0.. => (mantissa / 2.0, i64::from(exponent) + 1),

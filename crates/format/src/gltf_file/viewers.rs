@@ -17,7 +17,7 @@ pub(super) fn camera(view: &View) -> gltf::Camera {
     let [width, height] = view.resolution.map(f64::from);
     let [_, half_height, _] = view.frustum_corner(1.0);
     let extent = match view.perspective {
-        true => Extent::Angle(2.0 * half_height.atan()),
+        true => Extent::Angle(2.0 * libm::atan(half_height)),
         false => Extent::Height(2.0 * half_height),
     };
     gltf::Camera {
@@ -36,8 +36,8 @@ pub(super) fn camera_object(camera: &gltf::Camera) -> Camera {
     // Ours are those of the larger side.
     match camera.extent {
         Extent::Angle(angle) => {
-            let half = (angle.min(3.0) / 2.0).tan() * aspect.max(1.0);
-            object.view.angle = 2.0 * half.atan();
+            let half = libm::tan(angle.min(3.0) / 2.0) * aspect.max(1.0);
+            object.view.angle = 2.0 * libm::atan(half);
         }
         Extent::Height(height) => {
             (object.view.perspective, object.view.ortho_size) = (false, height * aspect.max(1.0));

@@ -130,7 +130,7 @@ fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rota
     };
     let side = |(a, b): (&[f64; 2], &[f64; 2])| {
         let (x, y) = (b[0] - a[0], b[1] - a[1]);
-        let length = x.hypot(y);
+        let length = libm::hypot(x, y);
         (length > 0.0).then(|| [x / length, y / length])
     };
     let sides = hull

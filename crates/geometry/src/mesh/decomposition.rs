@@ -48,7 +48,7 @@ impl Default for DecompositionParameters {
 impl DecompositionParameters {
     fn parameters(self) -> VHACDParameters {
         VHACDParameters {
-            resolution: self.voxels.cbrt().round().clamp(SIDES[0], SIDES[1]) as u32,
+            resolution: libm::cbrt(self.voxels).round().clamp(SIDES[0], SIDES[1]) as u32,
             concavity: self.concavity,
             plane_downsampling: self.plane_downsampling.clamp(1, MAX_DOWNSAMPLING),
             convex_hull_downsampling: self.hull_downsampling.clamp(1, MAX_DOWNSAMPLING),

@@ -50,7 +50,7 @@ impl Mesh {
                 }
             }
         }
-        let limit = angle.cos();
+        let limit = libm::cos(angle);
         edges
             .into_iter()
             .filter(|edge| edge.faces != 2 || edge.cosine < limit)

@@ -129,7 +129,7 @@ fn hull_of_cloud(cloud: &[[f64; 3]], grid: f64) -> Option<(Vec<usize>, Mesh)> {
 /// A point moved by up to `size`, always in the same way, so that few points share a plane.
 fn shaken(p: [f64; 3], size: f64) -> Vector {
     let phase = 1e3 * (1.3 * p[0] + 1.7 * p[1] + 2.3 * p[2]);
-    Vector::from_array([0, 1, 2].map(|i| p[i] + size * (phase * (1.0 + i as f64)).sin()))
+    Vector::from_array([0, 1, 2].map(|i| p[i] + size * libm::sin(phase * (1.0 + i as f64))))
 }
 
 #[cfg(test)]

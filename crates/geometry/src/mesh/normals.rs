@@ -20,7 +20,7 @@ impl Mesh {
             .collect();
         self.normals = faces.iter().flat_map(|face| [(*face).into(); 3]).collect();
         if shading_angle > 0.0 {
-            self.smooth(&areas, &faces, shading_angle.cos());
+            self.smooth(&areas, &faces, libm::cos(shading_angle));
         }
     }
 

@@ -41,20 +41,20 @@ pub fn matrix_to_euler(m: &[f64; 12]) -> [f64; 3] {
 
 fn axis_quaternion(axis: usize, angle: f64) -> Quaternion<f64> {
     let mut imaginary = Vector3::zeros();
-    imaginary[axis] = (0.5 * angle).sin();
-    Quaternion::from_parts((0.5 * angle).cos(), imaginary)
+    imaginary[axis] = libm::sin(0.5 * angle);
+    Quaternion::from_parts(libm::cos(0.5 * angle), imaginary)
 }
 
 fn euler_of(r: &Matrix3<f64>) -> [f64; 3] {
-    let beta = r[(0, 2)].clamp(-1.0, 1.0).asin();
+    let beta = libm::asin(r[(0, 2)].clamp(-1.0, 1.0));
     if r[(0, 2)].abs() < 0.999995 {
         [
-            (-r[(1, 2)]).atan2(r[(2, 2)]),
+            libm::atan2(-r[(1, 2)], r[(2, 2)]),
             beta,
-            (-r[(0, 1)]).atan2(r[(0, 0)]),
+            libm::atan2(-r[(0, 1)], r[(0, 0)]),
         ]
     } else {
-        [0.0, beta, r[(1, 0)].atan2(r[(1, 1)])]
+        [0.0, beta, libm::atan2(r[(1, 0)], r[(1, 1)])]
     }
 }
 

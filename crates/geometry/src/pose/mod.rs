@@ -131,7 +131,7 @@ pub fn rotation_axis(a: &Pose, b: &Pose) -> ([f64; 3], f64) {
     } else {
         q.imag() / sine
     };
-    (axis.into(), 2.0 * sine.atan2(q.w))
+    (axis.into(), 2.0 * libm::atan2(sine, q.w))
 }
 
 /// `t` turned by `angle` (right-handed) about the line through `axis_pos` along `axis`.
@@ -140,8 +140,8 @@ pub fn rotate_around_axis(t: &Pose, axis: &[f64; 3], axis_pos: &[f64; 3], angle:
     let Some(direction) = unit(Vector3::from(*axis)) else {
         return *t;
     };
-    let half = direction * (0.5 * angle).sin();
-    let turn = quaternion_from_array(&[half.x, half.y, half.z, (0.5 * angle).cos()]);
+    let half = direction * libm::sin(0.5 * angle);
+    let turn = quaternion_from_array(&[half.x, half.y, half.z, libm::cos(0.5 * angle)]);
     let centre = Vector3::from(*axis_pos);
     let position = turn * (t.translation.vector - centre) + centre;
     Pose::from_parts(position.into(), turn * t.rotation)

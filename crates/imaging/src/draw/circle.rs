@@ -125,13 +125,11 @@ fn arc_places(
         arc[0].min(arc[1]).rem_euclid(360.0),
         (arc[1] - arc[0]).abs().min(360.0),
     );
-    let (sin, cos) = angle.rem_euclid(360.0).to_radians().sin_cos();
+    let (sin, cos) = libm::sincos(angle.rem_euclid(360.0).to_radians());
     let steps = span.ceil().max(1.0);
     (0..=numbers::index(steps))
         .map(|n| {
-            let (y, x) = (first + span * numbers::real(n) / steps)
-                .to_radians()
-                .sin_cos();
+            let (y, x) = libm::sincos((first + span * numbers::real(n) / steps).to_radians());
             let (x, y) = (x * radii[0], y * radii[1]);
             [centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos]
         })

@@ -20,11 +20,11 @@ impl Matrix {
         tip_length: f64,
     ) {
         let back = [from[0] - to[0], from[1] - to[1]];
-        let length = back[0].hypot(back[1]) * tip_length;
-        let angle = back[1].atan2(back[0]);
+        let length = libm::hypot(back[0], back[1]) * tip_length;
+        let angle = libm::atan2(back[1], back[0]);
         self.draw_line(from, to, pen, thickness);
         for side in [1.0, -1.0] {
-            let (sin, cos) = (angle + side * std::f64::consts::FRAC_PI_4).sin_cos();
+            let (sin, cos) = libm::sincos(angle + side * std::f64::consts::FRAC_PI_4);
             let end = [to[0] + length * cos, to[1] + length * sin];
             self.draw_line(end.map(f64::round), to, pen, thickness);
         }

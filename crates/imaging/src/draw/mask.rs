@@ -72,7 +72,7 @@ impl Mask {
                 } else {
                     0.0
                 };
-                let distance = (dx - part * direction[0]).hypot(dy - part * direction[1]);
+                let distance = libm::hypot(dx - part * direction[0], dy - part * direction[1]);
                 coverage(radius - distance, line_type)
             });
         }
@@ -90,7 +90,7 @@ impl Mask {
         for row in 0..self.height {
             let y = numbers::real_of(numbers::count(row) + self.corner[1]);
             self.add_row(row, f64::NEG_INFINITY, f64::INFINITY, |x| {
-                let outside = (x - centre[0]).hypot(y - centre[1]) - ring;
+                let outside = libm::hypot(x - centre[0], y - centre[1]) - ring;
                 coverage(
                     radius - if is_disc { outside } else { outside.abs() },
                     line_type,

@@ -50,7 +50,7 @@ fn add(found: &mut Vec<Quad>, quad: Quad) {
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 fn perimeter(quad: &Quad) -> f64 {
@@ -157,8 +157,8 @@ fn fitted_line(places: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
             .map(|p| (p[i] - middle[i]) * (p[j] - middle[j]))
             .sum::<f64>()
     };
-    let angle = (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1)) / 2.0;
-    Some([middle, [angle.cos(), angle.sin()]])
+    let angle = libm::atan2(2.0 * moment(0, 1), moment(0, 0) - moment(1, 1)) / 2.0;
+    Some([middle, [libm::cos(angle), libm::sin(angle)]])
 }
 
 fn meeting([a, u]: [[f64; 2]; 2], [b, v]: [[f64; 2]; 2]) -> Option<[f64; 2]> {

@@ -139,12 +139,12 @@ impl Matrix {
 
     /// e to the power of each value; floats only.
     pub fn exp(&self) -> MatrixResult<Self> {
-        self.map_floats("exp", f64::exp)
+        self.map_floats("exp", libm::exp)
     }
 
     /// Natural logarithms; floats only.
     pub fn log(&self) -> MatrixResult<Self> {
-        self.map_floats("log", f64::ln)
+        self.map_floats("log", libm::log)
     }
 
     /// Square roots; floats only.
@@ -155,9 +155,11 @@ impl Matrix {
     /// Bytes have whole powers only. Of other powers, the absolute value is taken.
     pub fn pow(&self, power: f64) -> MatrixResult<Self> {
         if power.fract() == 0.0 {
-            return Ok(self.map(|value| value.powf(power)));
+            return Ok(self.map(|value| libm::pow(value, power)));
         }
-        self.map_floats("a power that is not whole", |value| value.abs().powf(power))
+        self.map_floats("a power that is not whole", |value| {
+            libm::pow(value.abs(), power)
+        })
     }
 
     /// An image of the same size and format whose pixels all have the given values, one for each channel.

@@ -15,7 +15,7 @@ impl Matrix {
     pub fn phase(&self, other: &Self, in_degrees: bool) -> MatrixResult<Self> {
         self.require(self.format().depth == Depth::Float, "phase")?;
         self.zip(other, |x, y| {
-            let angle = y.atan2(x);
+            let angle = libm::atan2(y, x);
             let angle = if angle < 0.0 { angle + TAU } else { angle };
             if in_degrees {
                 angle.to_degrees()

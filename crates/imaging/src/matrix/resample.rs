@@ -146,7 +146,7 @@ fn kernel(distance: f64, interpolation: Interpolation) -> f64 {
         Interpolation::Lanczos if x >= 4.0 => 0.0,
         Interpolation::Lanczos => {
             let y = std::f64::consts::PI * x;
-            4.0 * y.sin() * (y / 4.0).sin() / (y * y)
+            4.0 * libm::sin(y) * libm::sin(y / 4.0) / (y * y)
         }
         _ => (1.0 - x).max(0.0),
     }

@@ -94,7 +94,7 @@ impl RgbImage {
     /// Draws the boxes of blobs.
     pub fn draw_boxes(&mut self, blobs: &[Blob], colour: Rgb) {
         for blob in blobs {
-            let (sin, cos) = blob.orientation.sin_cos();
+            let (sin, cos) = libm::sincos(blob.orientation);
             let corner = |[x, y]: [f64; 2]| {
                 let (x, y) = (x * blob.extent[0] / 2.0, y * blob.extent[1] / 2.0);
                 [
@@ -174,7 +174,7 @@ impl Outline {
 
     /// The box that is upright once everything is turned by `angle`.
     fn box_at(&self, angle: f64) -> Blob {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for &[row, first, last] in &self.rows {
             for column in [first, last] {

@@ -6,7 +6,7 @@ impl RgbImage {
     /// Blackens pixels farther from the centre than `radius` times half of the smaller side; returns what was removed, on black.
     pub fn cut_circle(&mut self, radius: f64) -> Self {
         let limit = radius * 0.5 * numbers::real(self.width.min(self.height));
-        self.cut(|x, y| x.hypot(y) > limit)
+        self.cut(|x, y| libm::hypot(x, y) > limit)
     }
 
     /// Blackens pixels outside of a rectangle that has `sizes` of the image's sides; returns what was removed, on black.

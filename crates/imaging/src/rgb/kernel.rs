@@ -41,7 +41,7 @@ impl Kernel {
                 numbers::real(at % side) - middle,
                 numbers::real(at / side) - middle,
             );
-            (-(x * x + y * y) / (2.0 * VARIANCE)).exp()
+            libm::exp(-(x * x + y * y) / (2.0 * VARIANCE))
         };
         let weights: Vec<f64> = (0..side * side).map(weight).collect();
         let sum: f64 = weights.iter().sum();

@@ -99,7 +99,7 @@ impl RgbImage {
 
     /// Draws the axis of what is white, from the centre to both sides.
     pub fn draw_axis(&mut self, moments: &Moments, colour: Rgb) {
-        let (sin, cos) = moments.orientation.sin_cos();
+        let (sin, cos) = libm::sincos(moments.orientation);
         let size = [numbers::real(self.width), numbers::real(self.height)];
         let reach = 0.25 * size[0].min(size[1]);
         let middle = [moments.centre[0] * size[0], moments.centre[1] * size[1]];
@@ -140,7 +140,7 @@ fn axis([a, half_b, c]: [f64; 3]) -> (f64, f64) {
         return (0.0, 1.0);
     }
     let q = (b * b + (a - c) * (a - c)).sqrt();
-    let angle = 0.5 * ((a - c) / q).clamp(-1.0, 1.0).acos();
+    let angle = 0.5 * libm::acos(((a - c) / q).clamp(-1.0, 1.0));
     let roundness = (a + c - q) / (a + c + q);
     (if b < 0.0 { -angle } else { angle }, roundness)
 }

@@ -65,16 +65,16 @@ pub fn coordinates(
             }
             Opening::Perspective(angle) => {
                 let slopes = [0, 1].map(|i| {
-                    let edge = sides[i] * (angle / 2.0).tan();
+                    let edge = sides[i] * libm::tan(angle / 2.0);
                     if grid == Grid::Angles {
-                        (parts[i] * 2.0 * edge.atan()).tan()
+                        libm::tan(parts[i] * 2.0 * libm::atan(edge))
                     } else {
                         parts[i] * 2.0 * edge
                     }
                 });
                 let pixel = pixel_at(
                     depth,
-                    [0, 1].map(|i| slopes[i] / (2.0 * sides[i] * (angle / 2.0).tan())),
+                    [0, 1].map(|i| slopes[i] / (2.0 * sides[i] * libm::tan(angle / 2.0))),
                 );
                 optics.along(slopes, pixel, depth)
             }
@@ -96,12 +96,15 @@ pub fn scan_lines(
         Opening::Perspective(angle) => angle,
         Opening::Orthographic(_) => std::f64::consts::FRAC_PI_3,
     };
-    let edges = sides.map(|side| side * (angle / 2.0).tan());
+    let edges = sides.map(|side| side * libm::tan(angle / 2.0));
     let places = (0..counts[0]).flat_map(|column| (0..counts[1]).map(move |row| (column, row)));
     let points = places.map(|(column, row)| {
-        let azimuth = part(column, counts[0]) * 2.0 * edges[0].atan();
+        let azimuth = part(column, counts[0]) * 2.0 * libm::atan(edges[0]);
         let elevation = part(row, counts[1]) * vertical_angle;
-        let slopes = [azimuth.tan(), elevation.tan() / azimuth.cos()];
+        let slopes = [
+            libm::tan(azimuth),
+            libm::tan(elevation) / libm::cos(azimuth),
+        ];
         let pixel = pixel_at(
             depth,
             [slopes[0] / (2.0 * edges[0]), slopes[1] / (2.0 * edges[1])],

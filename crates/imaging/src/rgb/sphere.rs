@@ -35,9 +35,9 @@ pub fn sources(size: [usize; 2], angles: [f64; 2], resolution: usize) -> Vec<Sou
 
 fn source(azimuth: f64, elevation: f64, resolution: usize) -> Source {
     let [x, y, z] = [
-        azimuth.cos() * elevation.cos(),
-        azimuth.sin() * elevation.cos(),
-        elevation.sin(),
+        libm::cos(azimuth) * libm::cos(elevation),
+        libm::sin(azimuth) * libm::cos(elevation),
+        libm::sin(elevation),
     ];
     let largest = x.abs().max(y.abs()).max(z.abs());
     let [x, y, z] = [x / largest, y / largest, z / largest];

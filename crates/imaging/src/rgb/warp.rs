@@ -42,7 +42,7 @@ impl RgbImage {
 
     /// Turns the content about the centre, counter-clockwise with row 0 at the bottom; the angle is in radians.
     pub fn rotate(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         self.sample(|x, y| [cos * x + sin * y, cos * y - sin * x]);
     }
 

@@ -145,7 +145,7 @@ impl<'a> Pivoting<'a> {
         let (axis, start) = ((b - a).normalize(), rests - middle);
         let angle = |centre: &Point3<f64>| {
             let end = centre - middle;
-            let angle = axis.dot(&start.cross(&end)).atan2(start.dot(&end));
+            let angle = libm::atan2(axis.dot(&start.cross(&end)), start.dot(&end));
             // Four points on one ball: rounding must not make a whole turn of nothing.
             if angle < -1e-7 {
                 angle + TAU

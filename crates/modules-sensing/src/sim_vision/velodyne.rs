@@ -239,7 +239,7 @@ impl Points {
         for (n, point) in packet[2..].as_chunks::<4>().0.iter().enumerate() {
             let [x, y, z, _] = point.map(f64::from);
             let place = frames.to_front * Point3::new(x, y, z);
-            let angle = place.x.atan2(place.z);
+            let angle = libm::atan2(place.x, place.z);
             let distance = place.coords.norm();
             let is_seen = distance < frames.range && sweep.contains(angle);
             if !is_seen {
@@ -247,7 +247,7 @@ impl Points {
             }
             self.places.push(place.into());
             self.coordinates.extend(match frames.is_polar {
-                true => [angle, FRAC_PI_2 - (place.y / distance).asin(), distance],
+                true => [angle, FRAC_PI_2 - libm::asin(place.y / distance), distance],
                 false => (frames.to_result * place).into(),
             });
             let colour = colours

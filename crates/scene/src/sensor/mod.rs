@@ -137,7 +137,7 @@ impl View {
     /// Half width, half height and distance of the picture `distance` metres ahead.
     pub fn frustum_corner(&self, distance: f64) -> [f64; 3] {
         let large = if self.perspective {
-            distance * (self.angle / 2.0).tan()
+            distance * libm::tan(self.angle / 2.0)
         } else {
             self.ortho_size / 2.0
         };

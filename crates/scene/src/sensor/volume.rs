@@ -155,7 +155,7 @@ impl Volume {
         let half = (0.5 * self.angle).clamp(0.0, PI);
         let radius = (self.radius[0] + self.range).max(0.0);
         let across = if half < FRAC_PI_2 {
-            radius * half.sin()
+            radius * libm::sin(half)
         } else {
             radius
         };
@@ -164,7 +164,7 @@ impl Volume {
         } else {
             across
         };
-        let behind = (radius * half.cos()).min(0.0);
+        let behind = (radius * libm::cos(half)).min(0.0);
         [
             [-across, -thickness, self.offset + behind],
             [across, thickness, self.offset + radius],
@@ -200,7 +200,7 @@ impl Volume {
             edges.extend(closed(&boundary));
         }
         for radius in radii {
-            let (sin, cos) = (0.5 * self.angle).sin_cos();
+            let (sin, cos) = libm::sincos(0.5 * self.angle);
             edges.extend(closed(&circle(
                 radius * sin,
                 self.offset + radius * cos,
@@ -216,7 +216,7 @@ impl Volume {
         let steps = ARC_STEPS;
         (0..=steps)
             .map(|i| {
-                let (sin, cos) = (self.angle * (i as f64 / steps as f64 - 0.5)).sin_cos();
+                let (sin, cos) = libm::sincos(self.angle * (i as f64 / steps as f64 - 0.5));
                 place(self.offset + radius * cos, radius * sin)
             })
             .collect()
@@ -232,7 +232,7 @@ fn rectangle(x: f64, y: f64, z: f64) -> Vec<Point> {
 /// A polygon of `faces` corners (3 to 512) on a circle around z; x goes through the middle of a side.
 fn circle(radius: f64, z: f64, faces: i64) -> Vec<Point> {
     let corners = faces.clamp(3, 512);
-    let corner = |i: i64| (TAU * (i as f64 + 0.5) / corners as f64).sin_cos();
+    let corner = |i: i64| libm::sincos(TAU * (i as f64 + 0.5) / corners as f64);
     (0..corners)
         .map(corner)
         .map(|(sin, cos)| [radius * cos, radius * sin, z])

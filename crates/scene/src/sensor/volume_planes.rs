@@ -130,15 +130,15 @@ impl Volume {
 
     /// The plane of a straight side at an angle, with the larger angles (`side` 1) or the smaller ones (-1) outside.
     fn disc_ray(&self, angle: f64, side: f64) -> Plane {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         [side * cos, 0.0, -side * sin, side * sin * self.offset]
     }
 
     fn disc_arc(&self, radius: f64, [from, to]: [f64; 2], facets: usize) -> Vec<Plane> {
         let step = (to - from) / facets as f64;
-        let reach = radius * (0.5 * step).cos();
+        let reach = radius * libm::cos(0.5 * step);
         let plane = |i: usize| {
-            let (sin, cos) = (from + step * (i as f64 + 0.5)).sin_cos();
+            let (sin, cos) = libm::sincos(from + step * (i as f64 + 0.5));
             [sin, 0.0, cos, -(reach + cos * self.offset)]
         };
         (0..facets).map(plane).collect()
@@ -205,11 +205,11 @@ impl<'a> Cone<'a> {
 
     /// A corner at an angle from z.
     fn corner(&self, radius: f64, angle: f64, corner: usize) -> Vector {
-        let across = self.azimuth(corner) * (radius * angle.sin());
+        let across = self.azimuth(corner) * (radius * libm::sin(angle));
         Vector::new(
             across.x,
             across.y,
-            self.volume.offset + radius * angle.cos(),
+            self.volume.offset + radius * libm::cos(angle),
         )
     }
 

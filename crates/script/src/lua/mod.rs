@@ -14,6 +14,9 @@
 //!   raises where it has not. Allocation failure aborts (see `Pool`), so that pushing never raises as long as what is pushed fits
 //!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`MAX_LIST_LENGTH`], `Data::MAX_ITEMS`).
 
+// The library that mlua's declarations need.
+use lua_sys as _;
+
 mod api;
 mod bytecode;
 mod calls;

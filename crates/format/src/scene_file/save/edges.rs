@@ -18,7 +18,11 @@ pub(super) fn drawn(mesh: &Mesh, threshold: f64) -> Vec<u8> {
     let mut bits = vec![0u8; (3 * mesh.triangles.len()).div_ceil(8)];
     for (face, triangle) in mesh.triangles.iter().enumerate() {
         for corner in 0..3 {
-            if is_sharp(&faces[&edge(*triangle, corner)], &normals, threshold.cos()) {
+            if is_sharp(
+                &faces[&edge(*triangle, corner)],
+                &normals,
+                libm::cos(threshold),
+            ) {
                 let at = 3 * face + corner;
                 bits[at / 8] |= 1 << (at % 8);
             }
