@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::{NativeLanguage, NativeScripts, Parts, Simulator};
 use heap::Contained;
+use heap::resource::Resource;
 use permissions::Permissions;
 use script::{
     Console, Debugger, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim,
@@ -133,13 +134,15 @@ impl Builder {
                 ..options.clone()
             };
             let sim = Sim::new(inner, modules::registry(), console, languages);
-            if let Some(debugger) = debugger {
+            let debugger = debugger.map(|debugger| {
                 // The simulator was just made, so it has none.
                 let _ = sim.scripts.debugger.set(debugger);
-            }
+                Resource::new(|| "the debugger".to_owned())
+            });
             Parts {
                 sim,
                 native_scripts,
+                _debugger: debugger,
             }
         });
         Simulator::with_main_and_sandbox(parts, options)

@@ -5,6 +5,7 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 
 use heap::Entered;
+use heap::resource::Resource;
 use scene::Scene;
 use script::Sim;
 
@@ -14,6 +15,8 @@ use super::{Error, NativeScripts, Simulator};
 pub(crate) struct Parts {
     pub(crate) sim: Rc<Sim>,
     pub(crate) native_scripts: Rc<NativeScripts>,
+    /// What the debugger knows of scripts lies in the memory of the program.
+    pub(crate) _debugger: Option<Resource>,
 }
 
 /// The parts of a simulator while code runs in its memory.
