@@ -143,7 +143,7 @@ fn threads_that_work_for_the_owner_are_inside_as_well() {
     assert!(heap.usage().1 > 7000);
     // Freed by the thread outside: they are put aside until the next allocation.
     drop(lists);
-    heap.enter(|| drop(Box::new(1)));
+    heap.enter(|| drop(std::hint::black_box(Box::new(1))));
     assert!(heap.usage().1 < 1000, "{:?}", heap.usage());
 }
 
@@ -175,7 +175,7 @@ fn with_snapshots_no_block_crosses_the_border() {
     let usage = heap.usage();
     drop(inner);
     heap.enter(|| drop(outer));
-    heap.enter(|| drop(Box::new(1)));
+    heap.enter(|| drop(std::hint::black_box(Box::new(1))));
     assert_eq!(heap.usage(), usage);
     drop(snapshot);
 }
