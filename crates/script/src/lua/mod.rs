@@ -45,11 +45,11 @@ pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{
     interrupt_running_code, only_ask, place_is_exact, place_of_interruption,
 };
+pub use hooks::listener::ask_running_code;
+pub(crate) use hooks::listener::{Catcher, Listener, listen, tell_of_caught_errors};
 pub(crate) use hooks::resume::report_dropped_errors;
 pub(crate) use hooks::running::{RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};
-pub use hooks::told::ask_running_code;
-pub(crate) use hooks::told::{Catcher, Listener, listen, tell_of_caught_errors};
 pub(crate) use live::{Call, LiveCode};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;

@@ -9,8 +9,8 @@ use std::ffi::c_int;
 use mlua::{Error, ffi};
 
 use super::api;
+use super::hooks::listener;
 use super::hooks::running::Running;
-use super::hooks::told;
 use super::seal::seal_top;
 use super::stack::Stack;
 use super::stack::frame::{Facts, Frame};
@@ -173,7 +173,7 @@ impl Stack<'_> {
 /// Adds the traceback to string errors, and to those of Rust functions, and leaves other values alone, as `debug.traceback` does.
 fn message_handler(stack: Stack<'_>) -> Exit {
     seal_top(stack);
-    told::of_error(stack, told::Catcher::Host);
+    listener::of_error(stack, listener::Catcher::Host);
     if let Some(mut message) = stack.text(-1) {
         // Up to the first NUL, as in Lua.
         message.truncate(

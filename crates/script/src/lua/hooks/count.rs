@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mlua::ffi;
 
 use super::interrupt::{answer_signal, place_of_interruption};
-use super::told;
+use super::listener;
 use crate::lua::Stack;
 use crate::lua::api::{self, Hook};
 use crate::lua::calls::callback::panic_message;
@@ -146,7 +146,7 @@ pub(super) fn next_step(stack: Stack<'_>) -> Step {
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
-        if told::of_question(stack) {
+        if listener::of_question(stack) {
             restore_count_hook(stack);
             return HookAction::Fail("ended by the debugger");
         }

@@ -4,6 +4,6 @@ pub(super) mod beside;
 pub(super) mod count;
 pub(super) mod debug_library;
 pub(super) mod interrupt;
+pub(super) mod listener;
 pub(super) mod resume;
 pub(super) mod running;
-pub(super) mod told;

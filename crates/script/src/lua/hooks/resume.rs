@@ -1,8 +1,8 @@
 //! A guard of `coroutine.resume`: it notes which coroutine runs, and reports errors that are dropped, since `coroutine.resume(co)` as a
 //! statement drops them.
 
+use super::listener::{self, Catcher};
 use super::running::enter_coroutine;
-use super::told::{self, Catcher};
 use crate::lua::calls::guard::{Next, guarded, install};
 use crate::lua::{Stack, Type};
 
@@ -34,7 +34,7 @@ fn look_at_results(stack: Stack<'_>) {
     enter_coroutine(stack);
     let failed = stack.top() >= 2 && stack.kind(-2) == Type::Boolean && !stack.truthy(-2);
     if failed {
-        told::of_error(stack, Catcher::Resume);
+        listener::of_error(stack, Catcher::Resume);
     }
     if !failed || !stack.caller_drops_results_of("resume") {
         return;
