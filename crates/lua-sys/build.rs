@@ -15,7 +15,7 @@ const FUNCTIONS: [&str; 14] = [
 #[expect(unsafe_code, reason = "the environment of the compiler")]
 #[allow(
     clippy::disallowed_methods,
-    reason = "cargo tells a build script its target through the environment"
+    reason = "cargo passes the target to a build script in the environment"
 )]
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -32,7 +32,7 @@ fn main() {
         lua.lib_dir().display()
     );
     for library in lua.libs() {
-        // As a whole: mlua, whose functions need these, may come later in the order in which the linker looks.
+        // As a whole: mlua, whose functions need these, may come later in the order of the linker.
         println!("cargo::rustc-link-lib=static:+whole-archive={library}");
     }
 }

@@ -54,14 +54,14 @@ pub(super) fn replay(args: &Args) -> Outcome {
     let (is_json, is_quiet) = (args.json, args.quiet);
     tape.on_end(move |verdict| {
         // A run that has differed goes nowhere.
-        tell(verdict, is_json, is_quiet);
+        report(verdict, is_json, is_quiet);
         std::process::exit(i32::from(code_of(verdict)));
     });
     args.perform(command, &header, &tape)
         .map_err(unreadable)??;
     let verdict = tape.finish().ok().flatten();
     let verdict = verdict.unwrap_or(Verdict::Unreadable("the run has no end".into()));
-    tell(&verdict, is_json, is_quiet);
+    report(&verdict, is_json, is_quiet);
     Ok(ExitCode::from(code_of(&verdict)))
 }
 
@@ -136,7 +136,7 @@ fn code_of(verdict: &Verdict) -> u8 {
 }
 
 /// Says how the replay has ended.
-fn tell(verdict: &Verdict, is_json: bool, is_quiet: bool) {
+fn report(verdict: &Verdict, is_json: bool, is_quiet: bool) {
     let (outcome, steps, text) = match verdict {
         Verdict::Same { steps } => (
             "same",

@@ -164,7 +164,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     let compared = session.hashes.finish();
     let (errors, code) = end(sim, &written, &interrupt);
     finish(&tape);
-    let code = tell(compared, code);
+    let code = report_comparison(compared, code);
     output.hash(last);
     output.summary(totals, args.time, begun.elapsed(), errors, code);
     Ok(ExitCode::from(code))
@@ -192,7 +192,7 @@ fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) 
 }
 
 /// Says what became of the comparison of hashes; the exit code of the run with that.
-fn tell(compared: Result<Option<Compared>, String>, code: u8) -> u8 {
+fn report_comparison(compared: Result<Option<Compared>, String>, code: u8) -> u8 {
     match compared {
         Ok(None) => code,
         Ok(Some(compared)) => {

@@ -16,10 +16,10 @@ use crate::framing::{Framing, framed};
 /// Messages that wait for a slow client; then the simulation waits.
 const MAX_WAITING: usize = 10_000;
 /// How long a request may wait before code that runs is asked to let it be looked at, and how often that is done.
-const PATIENCE: Duration = Duration::from_millis(30);
+const REQUEST_TIMEOUT: Duration = Duration::from_millis(30);
 const MAX_ASKED: u32 = 20;
 /// How long code may go on when the run is to end.
-const LAST_PATIENCE: Duration = Duration::from_secs(2);
+const END_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Lets the simulation look at requests in the middle of code that runs.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -133,8 +133,8 @@ impl Link {
     }
 
     /// The same after a wait; None when the time is over.
-    pub fn receive(&self, patience: Duration) -> Option<Incoming> {
-        match self.incoming.recv_timeout(patience) {
+    pub fn receive(&self, timeout: Duration) -> Option<Incoming> {
+        match self.incoming.recv_timeout(timeout) {
             Ok(incoming) => Some(self.noted(incoming)),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => Some(Incoming::Gone(None)),
@@ -152,9 +152,9 @@ impl Link {
     }
 
     /// Waits until everything is written, but no longer than that.
-    pub fn finish(&self, patience: Duration) {
+    pub fn finish(&self, timeout: Duration) {
         let _ = self.outgoing.send(Outgoing::End);
-        let _ = self.finished.recv_timeout(patience);
+        let _ = self.finished.recv_timeout(timeout);
     }
 }
 
@@ -215,7 +215,7 @@ impl Reader {
         match command.as_str() {
             // The code has had time to come to a trap; a loop in one line has none.
             "pause" => {
-                std::thread::sleep(PATIENCE);
+                std::thread::sleep(REQUEST_TIMEOUT);
                 (self.wake)();
             }
             "terminate" | "restart" | "disconnect" if self.insists.load(Ordering::Acquire) => {
@@ -230,7 +230,7 @@ impl Reader {
         let wake = Arc::clone(&self.wake);
         let ask = move || {
             for _ in 0..MAX_ASKED {
-                std::thread::sleep(LAST_PATIENCE);
+                std::thread::sleep(END_TIMEOUT);
                 wake();
             }
         };
@@ -249,7 +249,7 @@ impl Reader {
             if self.unread.load(Ordering::Acquire) == 0 {
                 return;
             }
-            std::thread::sleep(PATIENCE);
+            std::thread::sleep(REQUEST_TIMEOUT);
             if self.unread.load(Ordering::Acquire) == 0 {
                 return;
             }

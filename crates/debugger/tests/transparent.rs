@@ -22,7 +22,7 @@ const DIFFERENT: &[&str] = &[
     "module-helpers",
 ];
 
-/// Arms every trap, looks at the variables, and goes on.
+/// Arms every trap, reads the variables, and goes on.
 #[derive(Default)]
 struct Looker {
     lines: Cell<u64>,

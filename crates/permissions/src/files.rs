@@ -1,4 +1,4 @@
-//! What is known and read of files, on the tape of the simulator: a replay gets it from the capture, and looks at no file.
+//! What is known and read of files, on the tape of the simulator: a replay gets it from the capture, and reads no file.
 
 use std::io;
 use std::path::{Path, PathBuf};

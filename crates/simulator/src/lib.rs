@@ -374,7 +374,7 @@ impl Simulator {
     /// tree, time and state of the simulation, random numbers. Simulators that are in the same state have the same hash, on every
     /// processor.
     ///
-    /// The first call looks at everything; from then on changes are followed, and a call costs as much as there are changes.
+    /// The first call reads everything; from then on changes are followed, and a call costs as much as there are changes.
     pub fn state_hash(&self) -> u64 {
         self.inside().state_hash()
     }

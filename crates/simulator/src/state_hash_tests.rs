@@ -247,7 +247,7 @@ fn a_change_is_told_by_owner_and_name() {
     assert!(all.contains_key(&changed[0]));
 }
 
-/// Of a change that the journal did not tell, or told as something else, the followed hash would know nothing.
+/// Of a change that the journal did not record, or recorded as something else, the followed hash would know nothing.
 #[test]
 fn following_equals_looking_anew() {
     let mut case = Case::new();

@@ -75,7 +75,7 @@ impl TestCapture {
 impl Drop for TestCapture {
     fn drop(&mut self) {
         let Some(kept) = &self.kept else { return };
-        // The outcome has the path: whoever looks for the file sees that it could not be written.
+        // The outcome has the path: it is missing where the file could not be written.
         let _ = self
             .tape
             .finish()

@@ -12,7 +12,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 
 /// Every answer comes within this time.
-const PATIENCE: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// A client, and the command that it has started.
 pub struct Client {
@@ -95,7 +95,7 @@ impl Client {
             return self.waiting.remove(at);
         }
         loop {
-            let message = self.messages.recv_timeout(PATIENCE);
+            let message = self.messages.recv_timeout(TIMEOUT);
             let message = message
                 .unwrap_or_else(|error| panic!("{what}: {error}; there is {:#?}", self.waiting));
             if is_it(&message) {
@@ -235,7 +235,7 @@ impl Client {
 
     /// Waits for the end of the command.
     pub fn exit_code(&mut self) -> Option<i32> {
-        for _ in 0..PATIENCE.as_millis() / 20 {
+        for _ in 0..TIMEOUT.as_millis() / 20 {
             if let Some(status) = self.command.try_wait().expect("it was started") {
                 return status.code();
             }

@@ -1,4 +1,4 @@
-//! A session: a client, and the simulation that it looks at.
+//! A session: a client, and the simulation that it debugs.
 //!
 //! The session belongs to the thread of the simulator. [`script::Debugger`] is how code reaches it; while it holds the code, it answers
 //! requests until one lets the code go on. Requests that come meanwhile are answered between two iterations of the application's loop, or

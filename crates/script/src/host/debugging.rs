@@ -1,6 +1,6 @@
 //! The interface between running scripts and a debugger.
 //!
-//! The interpreters of a simulator with a [`Debugger`] tell it what they load, and when code reaches a place it wants to know of. While it
+//! The interpreters of a simulator with a [`Debugger`] report to it what they load, and when code reaches a place where it has a trap. While it
 //! answers, everything stands still: it is called on the thread of the simulator, in the middle of the code. It looks at the scripts by
 //! [`Debuggee`].
 
@@ -209,10 +209,10 @@ pub trait Debuggee {
 }
 
 impl Sim {
-    /// Calls `tell` with the debugger, if there is one.
-    pub(crate) fn tell_debugger(self: &Rc<Self>, tell: impl FnOnce(&Rc<dyn Debugger>)) {
+    /// Calls `notify` with the debugger, if there is one.
+    pub(crate) fn notify_debugger(self: &Rc<Self>, notify: impl FnOnce(&Rc<dyn Debugger>)) {
         if let Some(debugger) = self.scripts.debugger.get() {
-            tell(debugger);
+            notify(debugger);
         }
     }
 

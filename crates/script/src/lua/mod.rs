@@ -46,7 +46,7 @@ pub use hooks::interrupt::{
     interrupt_running_code, only_ask, place_is_exact, place_of_interruption,
 };
 pub use hooks::listener::ask_running_code;
-pub(crate) use hooks::listener::{Catcher, Listener, listen, tell_of_caught_errors};
+pub(crate) use hooks::listener::{Catcher, Listener, listen, report_caught_errors};
 pub(crate) use hooks::resume::report_dropped_errors;
 pub(crate) use hooks::running::{RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};

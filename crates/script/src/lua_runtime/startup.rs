@@ -37,7 +37,7 @@ pub(super) fn fill(
     lua::restrict_debug(stack);
     if sim.scripts.debugger.get().is_some() {
         // Before the library puts a function of its own in front of it.
-        lua::tell_of_caught_errors(stack);
+        lua::report_caught_errors(stack);
     }
     lua::report_closed_pipes(stack, |stack| {
         if let Some(sim) = stack.env().simulator() {

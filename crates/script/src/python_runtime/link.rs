@@ -159,7 +159,7 @@ impl Link {
             let begun = *begun.get_or_insert_with(wall_clock::now);
             let is_late = || limit.is_some_and(|limit| begun.elapsed() + wait >= limit);
             let tape = self.tape.borrow().clone();
-            if tape.input("the patience with Python", is_late) != Ok(false) {
+            if tape.input("the timeout of Python", is_late) != Ok(false) {
                 return Ok(None);
             }
             self.check_interruption(env)?;

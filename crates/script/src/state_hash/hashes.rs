@@ -44,7 +44,7 @@ pub(super) struct Hashes {
 pub(super) struct Sum(pub u64);
 
 impl Sum {
-    /// Puts another hash in the place of an old one, and tells if it is another one.
+    /// Puts another hash in the place of an old one, and returns whether it is another one.
     pub(super) fn replace(&mut self, place: &mut u64, value: ChangedValue<'_>, sink: Sink<'_>) {
         let old = std::mem::replace(place, value.hash);
         self.0 = self.0.wrapping_sub(old).wrapping_add(value.hash);

@@ -1,12 +1,12 @@
-//! The state hash: 64 bits that tell whether two simulators are in the same state, as far as scripts can observe it.
+//! The state hash: 64 bits that are equal when two simulators are in the same state, as far as scripts can observe it.
 //!
 //! Every value has a hash of its own (xxh3), seeded with its name and its owner; the hash of the state is their sum. So it can be kept up
 //! to date: the journal of the scene says which objects changed in which respect, and only their values are hashed again. Those hashes
-//! also tell *what* differs. Without a first request nothing is followed.
+//! also name *what* differs. Without a first request nothing is followed.
 //!
 //! Hashed are poses, velocities, joints, readings and pictures of sensors, meshes, all properties with a state of their own, custom data,
 //! signals, the tree, the selection, named parameters, time and state of the simulation, the states of scripts and their random numbers.
-//! Not hashed is what scripts know only themselves (variables), their texts, what outlives the run (persistent data), and what tells apart
+//! Not hashed is what scripts know only themselves (variables), their texts, what outlives the run (persistent data), and what distinguishes
 //! runs that are the same: files, paths, identifiers of the session.
 
 mod bytes;
@@ -29,17 +29,17 @@ use hashes::Hashes;
 struct StateHash {
     hashes: RefCell<Hashes>,
     /// What changed since the last time that somebody asked for it; None before the first time.
-    untold: RefCell<Option<Vec<(i64, String, u64)>>>,
+    unreported: RefCell<Option<Vec<(i64, String, u64)>>>,
 }
 
 impl Sim {
     /// The hash of what scripts can observe now.
     pub fn state_hash(self: &Rc<Self>) -> u64 {
         let known = self.modules.states.get::<StateHash>();
-        let mut untold = known.untold.borrow_mut();
+        let mut unreported = known.unreported.borrow_mut();
         known.hashes.borrow_mut().update(self, &mut |value| {
-            if let Some(untold) = untold.as_mut() {
-                untold.push((value.target, value.name.to_owned(), value.hash));
+            if let Some(unreported) = unreported.as_mut() {
+                unreported.push((value.target, value.name.to_owned(), value.hash));
             }
         })
     }
@@ -47,10 +47,10 @@ impl Sim {
     /// The same; `sink` gets the values that changed since the last call of this function, all of them at the first one.
     pub fn state_hash_with(self: &Rc<Self>, mut sink: impl FnMut(ChangedValue<'_>)) -> u64 {
         let known = self.modules.states.get::<StateHash>();
-        let untold = known.untold.borrow_mut().replace(Vec::new());
+        let unreported = known.unreported.borrow_mut().replace(Vec::new());
         let mut hashes = known.hashes.borrow_mut();
-        match untold {
-            Some(untold) => untold.iter().for_each(|(target, name, hash)| {
+        match unreported {
+            Some(unreported) => unreported.iter().for_each(|(target, name, hash)| {
                 sink(ChangedValue {
                     target: *target,
                     name,

@@ -361,7 +361,7 @@ fn vision(sensor: &VisionSensor, b: &mut Bytes) {
     }
 }
 
-/// The recorded values grow step by step: their number and the last ones tell whether they are the same.
+/// The recorded values grow step by step: they are the same when their number and the last ones are.
 fn graph(graph: &Graph, b: &mut Bytes) {
     b.count(graph.times().len());
     optional(graph.times().next_back(), b);

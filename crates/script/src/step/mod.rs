@@ -20,7 +20,7 @@ use scene::object::script_object::ScriptType;
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub fn loop_iteration(self: &Rc<Self>) {
-        self.tell_debugger(|debugger| {
+        self.notify_debugger(|debugger| {
             debugger.look(self, None);
         });
         self.options.permissions.tape().turn();

@@ -1,4 +1,4 @@
-//! Files of state hashes: one line for each step, to tell where another run differs.
+//! Files of state hashes: one line for each step, to find where another run differs.
 //!
 //! The files are text. After a head, `t` lines name owners of values (objects, the scene, the application, scripts), `p` lines name
 //! properties, and `s` lines are steps: number, simulated time, state hash, and the values that changed since the line before, as

@@ -170,12 +170,12 @@ impl Env {
         )
     }
 
-    /// Tells a debugger that a call of the script may have changed the scene.
+    /// Notifies a debugger that a call of the script may have changed the scene.
     pub(crate) fn tell_of_change(&self) {
         if self.is_debugged
             && let Some(sim) = self.sim.upgrade()
         {
-            sim.tell_debugger(|debugger| debugger.scene_changed(&sim, Some(&self.script)));
+            sim.notify_debugger(|debugger| debugger.scene_changed(&sim, Some(&self.script)));
         }
     }
 

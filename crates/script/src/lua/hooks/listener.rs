@@ -1,4 +1,4 @@
-//! What a debugger is told of: errors where they are raised, and that it may look in the middle of code that does not end.
+//! What a debugger is notified of: errors where they are raised, and that it may act in the middle of code that does not end.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,7 +8,7 @@ use crate::lua::calls::entry::{Exit, push_function};
 use crate::lua::calls::guard::{Next, guarded, install_with};
 use crate::lua::{Stack, Type};
 
-/// Who is told, the same in every state of the process.
+/// Who is notified, the same in every state of the process.
 #[derive(Clone, Copy)]
 pub(crate) struct Listener {
     /// An error was raised, whose text is on top.
@@ -29,16 +29,16 @@ pub(crate) enum Catcher {
 }
 
 static LISTENER: OnceLock<Listener> = OnceLock::new();
-/// Somebody wants to look at the code that runs.
+/// The debugger has a request for the code that runs.
 static IS_ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From now on that listener is told, of all states of the process.
+/// From now on that listener is notified, by all states of the process.
 pub(crate) fn listen(listener: Listener) {
     LISTENER.get_or_init(|| listener);
 }
 
-/// Makes `pcall` of this state tell of errors before it catches them.
-pub(crate) fn tell_of_caught_errors(stack: Stack<'_>) {
+/// Makes `pcall` of this state report errors before it catches them.
+pub(crate) fn report_caught_errors(stack: Stack<'_>) {
     stack.push_globals();
     install_with::<{ guarded::PCALL }, _>(stack, "pcall", "xpcall", |stack| {
         if stack.top() == 0 {
@@ -54,7 +54,7 @@ pub(crate) fn tell_of_caught_errors(stack: Stack<'_>) {
     stack.pop(1);
 }
 
-/// The next hook tells the listener; who calls this sends the signal that lets one come, if code runs.
+/// The next hook notifies the listener; who calls this sends the signal that lets one come, if code runs.
 pub fn ask_running_code() {
     IS_ASKED.store(true, Ordering::Release);
     only_ask();

@@ -6,10 +6,10 @@ use super::running::enter_coroutine;
 use crate::lua::calls::guard::{Next, guarded, install};
 use crate::lua::{Stack, Type};
 
-/// What is told of such an error: its message.
+/// What is reported of such an error: its message.
 pub(crate) type OnDropped = fn(Stack<'_>, &str);
 
-/// Who is told, the same in every state of the process.
+/// Who is notified, the same in every state of the process.
 static ON_DROPPED: std::sync::OnceLock<OnDropped> = std::sync::OnceLock::new();
 
 /// Makes `coroutine.resume` report errors to statements that drop them.

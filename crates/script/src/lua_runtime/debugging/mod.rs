@@ -118,7 +118,7 @@ impl Debugged {
             let text = Rc::new(text);
             self.texts.borrow_mut().push((Rc::clone(&text), code));
             let script = &stack.env().script;
-            sim.tell_debugger(|debugger| debugger.text_loaded(&sim, script, &text));
+            sim.notify_debugger(|debugger| debugger.text_loaded(&sim, script, &text));
         }
     }
 }
@@ -200,7 +200,7 @@ fn reached(stack: Stack<'_>) -> Outcome {
                 below: stack.depth() - 1 - at,
             },
         };
-        sim.tell_debugger(|debugger| debugger.line_reached(&sim, &place));
+        sim.notify_debugger(|debugger| debugger.line_reached(&sim, &place));
     }
     Outcome::Results(0)
 }
@@ -224,7 +224,7 @@ fn error_raised(stack: Stack<'_>, catcher: Catcher) {
         None => "an error that is no text".into(),
     };
     let script = &stack.env().script;
-    sim.tell_debugger(|debugger| debugger.error_raised(&sim, script, &message, is_caught));
+    sim.notify_debugger(|debugger| debugger.error_raised(&sim, script, &message, is_caught));
 }
 
 /// Whether the innermost code is that of a text with traps.
