@@ -17,5 +17,6 @@ mod writer;
 
 pub use reader::{CaptureError, Reader};
 pub use record::{Header, Record};
+pub use state::Mark;
 pub use tape::{Lost, Tape, Verdict};
 pub use value::{Input, Recorded};

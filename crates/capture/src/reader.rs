@@ -1,8 +1,9 @@
 //! Reading a capture, frame by frame.
 
 use std::fs::File;
-use std::io::{self, BufReader, ErrorKind, Read};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::frame::{FRAME_HEAD, FrameHead, HEAD, MAGIC, VERSION, unpack};
 use crate::record::{Header, Record};
@@ -34,7 +35,15 @@ pub struct Reader<R = BufReader<File>> {
     /// Bytes of the file that were read.
     place: u64,
     /// Records of the present frame, and how many of their bytes were read.
-    frame: Vec<u8>,
+    frame: Arc<Vec<u8>>,
+    read: usize,
+}
+
+/// A place between two records of a capture.
+#[derive(Debug, Clone)]
+pub(crate) struct Bookmark {
+    place: u64,
+    frame: Arc<Vec<u8>>,
     read: usize,
 }
 
@@ -66,7 +75,7 @@ impl<R: Read> Reader<R> {
             file,
             header: Header::default(),
             place: HEAD as u64,
-            frame: Vec::new(),
+            frame: Arc::default(),
             read: 0,
         };
         match reader.next_record()? {
@@ -116,13 +125,36 @@ impl<R: Read> Reader<R> {
         }
         let is_right = crc32fast::hash(&packed) == head.sum;
         match unpack(&packed, head.plain).filter(|_| is_right) {
-            Some(records) => (self.frame, self.read) = (records, 0),
+            Some(records) => (self.frame, self.read) = (Arc::new(records), 0),
             // The last one may have been on its way to the disk.
             None if fill(&mut self.file, &mut [0])? == 0 => return Ok(false),
             None => return Err(CaptureError::Damaged(self.place)),
         }
         self.place += (FRAME_HEAD + head.packed) as u64;
         Ok(true)
+    }
+}
+
+impl<R: Read + Seek> Reader<R> {
+    /// The place of the next record.
+    pub(crate) fn bookmark(&self) -> Bookmark {
+        Bookmark {
+            place: self.place,
+            frame: Arc::clone(&self.frame),
+            read: self.read,
+        }
+    }
+
+    /// Goes on with the record that was the next one there.
+    ///
+    /// # Errors
+    /// When the system refuses it.
+    pub(crate) fn go_to(&mut self, bookmark: &Bookmark) -> io::Result<()> {
+        self.file.seek(SeekFrom::Start(bookmark.place))?;
+        self.place = bookmark.place;
+        self.frame = Arc::clone(&bookmark.frame);
+        self.read = bookmark.read;
+        Ok(())
     }
 }
 

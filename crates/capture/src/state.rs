@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use heap::{Outer, outside};
 
-use crate::reader::{CaptureError, Reader};
+use crate::reader::{Bookmark, CaptureError, Reader};
 use crate::record::{Header, PIECE, Record};
 use crate::tape::Verdict;
 use crate::value::{Input, Recorded, write_number};
@@ -94,22 +94,64 @@ pub(crate) struct Replaying {
     next: Option<Record>,
     kinds: Vec<String>,
     contents: Vec<Arc<Vec<u8>>>,
+    /// How many of them were read up to the present place.
+    kinds_read: usize,
+    contents_read: usize,
     /// The pieces of a content that is not complete.
     pieces: Vec<u8>,
     pub(crate) steps: u64,
+    pub(crate) tolerates_hashes: bool,
     /// How the replay has ended; None while it goes on.
     pub(crate) verdict: Option<Verdict>,
 }
 
+/// A moment of a replay, to come back to.
+#[derive(Debug, Clone)]
+pub struct Mark {
+    bookmark: Bookmark,
+    next: Option<Record>,
+    kinds: usize,
+    contents: usize,
+    pieces: Vec<u8>,
+    steps: u64,
+}
+
 impl Replaying {
+    pub(crate) fn mark(&self) -> Mark {
+        Mark {
+            bookmark: self.reader.bookmark(),
+            next: self.next.clone(),
+            kinds: self.kinds_read,
+            contents: self.contents_read,
+            pieces: self.pieces.clone(),
+            steps: self.steps,
+        }
+    }
+
+    /// Goes back to a moment, or forward to one that was reached before.
+    pub(crate) fn go_to(&mut self, mark: &Mark) -> io::Result<()> {
+        self.reader.go_to(&mark.bookmark)?;
+        self.next.clone_from(&mark.next);
+        // What came later comes again, with the same numbers.
+        self.kinds_read = mark.kinds;
+        self.contents_read = mark.contents;
+        self.pieces.clone_from(&mark.pieces);
+        self.steps = mark.steps;
+        self.verdict = None;
+        Ok(())
+    }
+
     pub(crate) fn new(reader: Reader) -> Self {
         Self {
             reader,
             next: None,
             kinds: Vec::new(),
             contents: Vec::new(),
+            kinds_read: 0,
+            contents_read: 0,
             pieces: Vec::new(),
             steps: 0,
+            tolerates_hashes: false,
             verdict: None,
         }
     }
@@ -191,7 +233,7 @@ impl Replaying {
 
     pub(crate) fn step(&mut self, hash: u64) -> Option<()> {
         match self.take_next()? {
-            Record::Step { hash: captured, .. } if captured == hash => {
+            Record::Step { hash: captured, .. } if captured == hash || self.tolerates_hashes => {
                 self.steps += 1;
                 return Some(());
             }
@@ -282,12 +324,20 @@ impl Replaying {
     /// Keeps what others refer to; what happened is the next thing.
     fn sort(&mut self, record: Record) {
         match record {
-            Record::Kind(name) => self.kinds.push(name),
+            Record::Kind(name) => {
+                if self.kinds_read == self.kinds.len() {
+                    self.kinds.push(name);
+                }
+                self.kinds_read += 1;
+            }
             Record::Content { piece, is_last } => {
                 self.pieces.extend(piece);
                 if is_last {
                     let content = std::mem::take(&mut self.pieces);
-                    self.contents.push(Arc::new(content));
+                    if self.contents_read == self.contents.len() {
+                        self.contents.push(Arc::new(content));
+                    }
+                    self.contents_read += 1;
                 }
             }
             // The reader has it; and what a capture lacks is for those who read about it.

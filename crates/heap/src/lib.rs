@@ -37,7 +37,7 @@ pub use current::{Entered, brought_in, outside};
 pub use lazy::Lazy;
 pub use outer::Outer;
 pub use scripts::{Scripts, in_scripts};
-pub use snapshot::{RestoreError, Snapshot};
+pub use snapshot::{Moment, RestoreError, Snapshot};
 
 use std::cell::RefCell;
 use std::marker::PhantomData;

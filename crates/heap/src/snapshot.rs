@@ -7,7 +7,7 @@ use super::image::Image;
 use super::region::Region;
 use super::resource::open_in;
 use super::space::Address;
-use super::{Heap, current};
+use super::{Handle, Heap, current, outside};
 
 /// All that a heap held at a moment. Unchanged pages are shared with other snapshots of the heap.
 #[derive(Debug)]
@@ -107,6 +107,52 @@ impl Snapshot {
     /// Bytes that only this snapshot holds.
     pub fn own_bytes(&self) -> usize {
         self.images.iter().map(Image::own_bytes).sum()
+    }
+}
+
+/// What a heap held in the midst of code that runs inside, and which stands still meanwhile.
+#[derive(Debug)]
+pub struct Moment {
+    heap: Address,
+    images: [Image; 2],
+}
+
+impl Handle {
+    /// Copies what the heap holds, in the midst of code that runs inside.
+    pub fn moment(self) -> Moment {
+        outside(|| {
+            let of = |region: *mut Region| {
+                // SAFETY: the owner's thread is here, and allocates outside; those that work for it are not inside.
+                unsafe {
+                    (*region).take_returned();
+                    Image::of(region, None)
+                }
+            };
+            let heap = self.address;
+            let images = [of(heap.general()), of(heap.scripts())];
+            heap.snapshots().fetch_add(1, Ordering::Relaxed);
+            Moment { heap, images }
+        })
+    }
+}
+
+impl Moment {
+    /// Brings back what the heap held.
+    ///
+    /// # Safety
+    /// The code that ran when it was made has stood still since, and nothing refers to what the heap has got since.
+    pub unsafe fn bring_back(self) {
+        let regions = [self.heap.general(), self.heap.scripts()];
+        for (region, image) in regions.into_iter().zip(&self.images) {
+            // SAFETY: the caller's promise.
+            unsafe { image.restore(region) };
+        }
+    }
+}
+
+impl Drop for Moment {
+    fn drop(&mut self) {
+        self.heap.snapshots().fetch_sub(1, Ordering::Relaxed);
     }
 }
 

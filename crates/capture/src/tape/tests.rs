@@ -230,3 +230,58 @@ fn tapes_are_equal_to_themselves() {
         "Tape(capturing) Tape(off)"
     );
 }
+
+#[test]
+fn a_replay_goes_back_and_ahead() {
+    let folder = Folder::new();
+    let contents = [vec![1; 100], vec![2; 3 << 20]];
+    let run = |tape: &Tape, turns: std::ops::Range<usize>| {
+        for turn in turns {
+            tape.turn();
+            // Kinds and contents that come later must not change the numbers of earlier ones.
+            let clock = tape.input(&format!("clock {turn}"), || turn as u64);
+            assert_eq!(clock, Ok(turn as u64));
+            let wanted = &contents[turn % 2];
+            let read = tape.content("file", || Ok(wanted.clone()));
+            assert!(read.unwrap() == *wanted, "content {turn}");
+            tape.step(|| turn as u64);
+        }
+    };
+    folder.capture(|tape| run(tape, 0..6));
+    let verdict = folder.replay(|tape| {
+        let beginning = tape.mark().unwrap();
+        run(tape, 0..3);
+        let third = tape.mark().unwrap();
+        run(tape, 3..5);
+        tape.go_to(&beginning).unwrap();
+        run(tape, 0..2);
+        tape.go_to(&third).unwrap();
+        assert_eq!(tape.steps(), 3);
+        run(tape, 3..6);
+        // What differs is forgotten when an earlier moment is brought back.
+        tape.go_to(&third).unwrap();
+        tape.turn();
+        tape.step(|| 99);
+        assert!(matches!(tape.verdict(), Some(Verdict::Differs { .. })));
+        tape.go_to(&third).unwrap();
+        assert_eq!(tape.verdict(), None);
+        tape.suspend(true);
+        assert_eq!(tape.input("clock 3", || 3_u64), Err(Lost));
+        tape.suspend(false);
+        run(tape, 3..6);
+    });
+    assert_eq!(verdict, Verdict::Same { steps: 6 });
+}
+
+#[test]
+fn a_replay_that_has_gone_live_reads_what_is_there() {
+    let folder = Folder::new();
+    folder.capture(|tape| {
+        let _ = tape.input("clock", || 1_u64);
+    });
+    let (tape, _) = Tape::replaying(&folder.path()).unwrap();
+    tape.go_live();
+    assert_eq!(tape.input("other", || 5_u64), Ok(5));
+    assert!(!tape.is_replaying() && !tape.is_capturing());
+    assert_eq!(tape.finish().unwrap(), None);
+}
