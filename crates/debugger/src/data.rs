@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, ValueType};
-use script::{PropertyTarget, Sim};
+use script::Sim;
 use serde_json::{Value, json};
 
 use crate::breakpoints::Rule;
@@ -27,8 +27,9 @@ pub struct Watched {
 }
 
 /// A property of an object.
+#[derive(Clone)]
 struct Property {
-    target: PropertyTarget,
+    handle: i64,
     name: String,
     ty: ValueType,
 }
@@ -52,8 +53,10 @@ const FIRST_ID: u64 = 1 << 32;
 
 /// The name of a property of an object, for [`DataBreakpoints::set`].
 pub fn name(sim: &Rc<Sim>, handle: i64, property: &str) -> Option<String> {
-    let scene = sim.scene.try_borrow().ok()?;
-    let path = scene.short_path(Handle::from_raw(handle)?).ok()?;
+    let path = sim.copied_out(|sim| {
+        let scene = sim.scene.try_borrow().ok()?;
+        scene.short_path(Handle::from_raw(handle)?).ok()
+    })?;
     Some(format!("{path}.{property}"))
 }
 
@@ -70,7 +73,7 @@ impl DataBreakpoints {
         for (id, requested) in (FIRST_ID..).zip(requested) {
             let name = requested["dataId"].as_str().unwrap_or_default();
             let rule = match Rule::parse(requested) {
-                Ok(rule) if name.contains('.') && rule.condition.is_none() => rule,
+                Ok(rule) if name.contains(['.', ':']) && rule.condition.is_none() => rule,
                 Ok(rule) => {
                     let reason = match rule.condition {
                         Some(_) => "data breakpoints have no conditions here, only hit counts",
@@ -104,8 +107,24 @@ impl DataBreakpoints {
         self.watched.is_empty()
     }
 
-    /// What has changed since the last time.
-    pub fn changes(&mut self, sim: &Rc<Sim>) -> Vec<Change> {
+    /// Whether all that is watched was there.
+    pub fn has_values(&self) -> bool {
+        self.watched.iter().all(|watched| watched.last.is_some()) && !self.is_empty()
+    }
+
+    /// Reads what is there: the simulation was brought to another moment.
+    pub fn refresh(&mut self, sim: &Rc<Sim>) {
+        for watched in &mut self.watched {
+            watched.property = find(sim, &watched.name);
+            watched.last = watched
+                .property
+                .as_ref()
+                .and_then(|property| property.read(sim));
+        }
+    }
+
+    /// What has changed since the last time. Without `counts`, on the way to another moment, hit counts do not matter.
+    pub fn changes(&mut self, sim: &Rc<Sim>, counts: bool) -> Vec<Change> {
         let mut changes = Vec::new();
         for watched in &mut self.watched {
             if watched.property.is_none() {
@@ -122,12 +141,9 @@ impl DataBreakpoints {
             if is_same(before, now) {
                 continue;
             }
-            watched.hits += 1;
-            if watched
-                .rule
-                .count
-                .is_none_or(|count| count.holds(watched.hits))
-            {
+            watched.hits += u64::from(counts);
+            let count = watched.rule.count.filter(|_| counts);
+            if count.is_none_or(|count| count.holds(watched.hits)) {
                 let text = format!("{}: {} became {}", watched.name, shown(before), shown(now));
                 changes.push(Change {
                     id: watched.id,
@@ -146,26 +162,27 @@ fn is_same(a: &Data, b: &Data) -> bool {
 
 impl Property {
     fn read(&self, sim: &Rc<Sim>) -> Option<Data> {
-        sim.read_property(&self.target, &self.name, self.ty).ok()
+        sim.copied_out(|sim| {
+            let sandbox = sim.scripts.detached(ScriptType::Sandbox)?;
+            let target = sim.property_target(self.handle, &sandbox).ok()?;
+            sim.read_property(&target, &self.name, self.ty).ok()
+        })
     }
 }
 
 /// The property with that name: the path of an object, and what is behind a dot.
 fn find(sim: &Rc<Sim>, name: &str) -> Option<Property> {
-    let sandbox = sim.scripts.detached(ScriptType::Sandbox)?;
-    for (at, _) in name.match_indices('.') {
+    // In the words of debuggers `/Box.pose`, in those of the reference `/Box:pose`.
+    let mut borders = name.match_indices(['.', ':']);
+    borders.find_map(|(at, _)| {
         let (path, name) = (&name[..at], &name[at + 1..]);
-        let found = sim.scene.try_borrow().ok()?.find(path, None, None);
-        if let Ok(handle) = found
-            && let Ok(target) = sim.property_target(handle.raw(), &sandbox)
-            && let Some((ty, _)) = sim.property_info(&target, name)
-        {
-            return Some(Property {
-                target,
-                name: name.to_owned(),
-                ty,
-            });
-        }
-    }
-    None
+        let (handle, ty) = sim.copied_out(|sim| {
+            let sandbox = sim.scripts.detached(ScriptType::Sandbox)?;
+            let handle = sim.scene.try_borrow().ok()?.find(path, None, None).ok()?;
+            let target = sim.property_target(handle.raw(), &sandbox).ok()?;
+            Some((handle.raw(), sim.property_info(&target, name)?.0))
+        })?;
+        let name = name.to_owned();
+        Some(Property { handle, name, ty })
+    })
 }

@@ -17,6 +17,8 @@ mod request;
 mod session;
 mod sources;
 mod stepping;
+mod watch;
 
 pub use link::{Incoming, Link, Wake};
-pub use session::{Ending, Launch, Position, Session};
+pub use session::{Ending, Launch, Position, Session, Travel};
+pub use watch::{Cause, Watch};

@@ -11,6 +11,7 @@ use simulator::{property_rows, property_setter};
 const MAX_LENGTH: usize = 500;
 
 /// A variable: a property, or another object.
+#[derive(Debug, Clone)]
 pub struct Entry {
     pub name: String,
     pub value: String,
@@ -30,6 +31,10 @@ pub fn sandbox(sim: &Rc<Sim>) -> i64 {
 
 /// The properties and children of an object, or the objects without a parent.
 pub fn entries(sim: &Rc<Sim>, handle: Option<i64>) -> Vec<Entry> {
+    sim.copied_out(|sim| entries_inside(sim, handle))
+}
+
+fn entries_inside(sim: &Rc<Sim>, handle: Option<i64>) -> Vec<Entry> {
     let Some(handle) = handle else {
         return children(sim, None);
     };
@@ -71,7 +76,21 @@ fn children(sim: &Rc<Sim>, parent: Option<Handle>) -> Vec<Entry> {
 ///
 /// # Errors
 /// When there is no such property, or it refuses the value.
-pub fn set_property(sim: &Rc<Sim>, handle: i64, name: &str, value: Data) -> Result<String, String> {
+pub fn set_property(
+    sim: &Rc<Sim>,
+    handle: i64,
+    name: &str,
+    value: &Data,
+) -> Result<String, String> {
+    sim.copied_out(|sim| set_property_inside(sim, handle, name, value.clone()))
+}
+
+fn set_property_inside(
+    sim: &Rc<Sim>,
+    handle: i64,
+    name: &str,
+    value: Data,
+) -> Result<String, String> {
     let sandbox = sim
         .scripts
         .detached(ScriptType::Sandbox)

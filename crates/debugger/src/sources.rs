@@ -66,12 +66,17 @@ impl Sources {
 
     /// A text, as clients are told of it.
     pub fn describe(&self, text: &LoadedText) -> Value {
-        if let Some(file) = &text.file {
-            let name = file.file_name().unwrap_or_default().to_string_lossy();
-            return json!({"name": name, "path": file.display().to_string()});
-        }
         let key = SourceKey::of(text);
         let place = self.entries.iter().position(|entry| entry.key == key);
+        if let Some(file) = &text.file {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            let mut described = json!({"name": name, "path": file.display().to_string()});
+            // The files of a capture may be elsewhere.
+            if let Some(place) = place.filter(|_| !file.is_file()) {
+                described["sourceReference"] = json!(place + 1);
+            }
+            return described;
+        }
         json!({
             "name": text.title, "sourceReference": place.map_or(0, |place| place + 1), "origin": "scene",
             "path": format!("swanilda:{}.lua", text.title),

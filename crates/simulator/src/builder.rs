@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use super::{NativeLanguage, NativeScripts, Parts, Simulator};
 use heap::Contained;
-use heap::resource::Resource;
 use permissions::Permissions;
 use script::{
     Console, Debugger, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim,
@@ -134,15 +133,13 @@ impl Builder {
                 ..options.clone()
             };
             let sim = Sim::new(inner, modules::registry(), console, languages);
-            let debugger = debugger.map(|debugger| {
+            if let Some(debugger) = debugger {
                 // The simulator was just made, so it has none.
                 let _ = sim.scripts.debugger.set(debugger);
-                Resource::new(|| "the debugger".to_owned())
-            });
+            }
             Parts {
                 sim,
                 native_scripts,
-                _debugger: debugger,
             }
         });
         Simulator::with_main_and_sandbox(parts, options)

@@ -12,6 +12,7 @@ mod native_script;
 #[cfg(test)]
 mod native_tests;
 mod picture;
+mod playback;
 mod run;
 mod scene;
 mod servers;
@@ -41,7 +42,8 @@ pub use memory::{SceneMut, Snapshot};
 use native_script::{NativeLanguage, NativeScripts};
 pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
-pub use run::{RunLimits, RunObserver, RunTotals};
+pub use playback::{Loop, Moment, Playback};
+pub use run::{Run, RunLimits, RunObserver, RunTotals};
 pub use script::{
     CacheFolder, ChangedValue, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost,
     RosOptions, ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
@@ -363,6 +365,11 @@ impl Simulator {
     /// How often lines of scripts ran since the last time, where `Options::count_lines` asks for that.
     pub fn take_line_counts(&mut self) -> LineCounts {
         self.copied(|sim| sim.take_line_counts())
+    }
+
+    /// Whether a debugger goes to another moment, and what happens does not count.
+    pub fn is_abandoned(&self) -> bool {
+        self.parts.sim.is_abandoned()
     }
 
     /// Whether a script asked to end the program.

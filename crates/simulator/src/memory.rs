@@ -5,7 +5,6 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 
 use heap::Entered;
-use heap::resource::Resource;
 use scene::Scene;
 use script::Sim;
 
@@ -15,8 +14,6 @@ use super::{Error, NativeScripts, Simulator};
 pub(crate) struct Parts {
     pub(crate) sim: Rc<Sim>,
     pub(crate) native_scripts: Rc<NativeScripts>,
-    /// What the debugger knows of scripts lies in the memory of the program.
-    pub(crate) _debugger: Option<Resource>,
 }
 
 /// The parts of a simulator while code runs in its memory.
@@ -76,6 +73,11 @@ impl Simulator {
     /// What `work` computes in the memory of the simulator, copied out of it.
     pub(crate) fn copied<T: Clone>(&self, work: impl FnOnce(&Rc<Sim>) -> T) -> T {
         self.parts.copied(|parts| work(&parts.sim))
+    }
+
+    /// For a debugger of this simulator: see [`Sim::copied_out`] for what it asks.
+    pub fn for_debugger<T>(&mut self, work: impl FnOnce(&Rc<Sim>) -> T) -> T {
+        work(&self.parts.sim)
     }
 
     /// The scene, to write. Do not hold it across other calls.

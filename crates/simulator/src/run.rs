@@ -50,36 +50,85 @@ impl RunLimits {
     }
 }
 
+/// A run of a simulator, iteration by iteration. A copy of it goes on where the simulator was brought back to.
+#[derive(Debug, Clone)]
+pub struct Run {
+    limits: RunLimits,
+    totals: RunTotals,
+    idle: u64,
+    is_stopping: bool,
+    phase: Phase,
+}
+
+/// What comes next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Simulation,
+    /// One more loop iteration, as in CoppeliaSim when it is closed.
+    Last,
+    Over,
+}
+
+impl Run {
+    /// Starts the simulation.
+    pub fn begin(sim: &mut Simulator, limits: RunLimits) -> Self {
+        sim.start();
+        Self {
+            limits,
+            totals: RunTotals::default(),
+            idle: 0,
+            is_stopping: false,
+            phase: Phase::Simulation,
+        }
+    }
+
+    /// What has been run.
+    pub fn totals(&self) -> RunTotals {
+        self.totals
+    }
+
+    /// One loop iteration; false when the run was over before.
+    pub fn iterate(&mut self, sim: &mut Simulator, observer: &mut dyn RunObserver) -> bool {
+        if self.phase == Phase::Over {
+            return false;
+        }
+        let goes_on = sim.state() != SimulationState::Stopped && !sim.quit_requested();
+        if self.phase == Phase::Last || !goes_on {
+            sim.iterate_watched(&mut self.totals, observer);
+            self.phase = Phase::Over;
+            return true;
+        }
+        self.stop_if_due(sim, observer);
+        let steps = sim.steps();
+        sim.iterate_watched(&mut self.totals, observer);
+        // Fewer steps: a script has started the next run.
+        if sim.steps() < steps && self.limits.once {
+            self.phase = Phase::Over;
+        } else if sim.steps() < steps && self.is_stopping {
+            self.phase = Phase::Last;
+        }
+        true
+    }
+
+    fn stop_if_due(&mut self, sim: &mut Simulator, observer: &mut dyn RunObserver) {
+        self.idle += u64::from(sim.state() == SimulationState::Paused);
+        if self.is_stopping || self.limits.are_reached(sim) || observer.should_stop(sim) {
+            self.is_stopping = true;
+            sim.request_stop();
+        } else if self.idle > self.limits.idle {
+            observer.stops_paused(sim);
+            sim.request_stop();
+            self.idle = 0;
+        }
+    }
+}
+
 impl Simulator {
     /// Starts the simulation and runs it to its end; one more loop iteration follows, as in CoppeliaSim when it is closed.
     pub fn run(&mut self, limits: RunLimits, observer: &mut dyn RunObserver) -> RunTotals {
-        let mut totals = RunTotals::default();
-        self.start();
-        let mut idle = 0;
-        let mut stopping = false;
-        while self.state() != SimulationState::Stopped && !self.quit_requested() {
-            idle += u64::from(self.state() == SimulationState::Paused);
-            if stopping || limits.are_reached(self) || observer.should_stop(self) {
-                stopping = true;
-                self.request_stop();
-            } else if idle > limits.idle {
-                observer.stops_paused(self);
-                self.request_stop();
-                idle = 0;
-            }
-            let steps = self.steps();
-            self.iterate_watched(&mut totals, observer);
-            if self.steps() < steps {
-                // A script has started the next run.
-                if limits.once {
-                    return totals;
-                } else if stopping {
-                    break;
-                }
-            }
-        }
-        self.iterate_watched(&mut totals, observer);
-        totals
+        let mut run = Run::begin(self, limits);
+        while run.iterate(self, observer) {}
+        run.totals()
     }
 
     /// That many loop iterations, in whatever state the scripts bring the simulation into.

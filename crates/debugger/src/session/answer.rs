@@ -5,7 +5,7 @@ use std::rc::Rc;
 use script::Sim;
 use serde_json::{Value, json};
 
-use super::{Ending, Exceptions, Flow, Session};
+use super::{Ending, Exceptions, Flow, Session, Travel};
 use crate::request::{Refusal, Request, event};
 use crate::stepping::{Mode, Origin};
 
@@ -13,7 +13,7 @@ use crate::stepping::{Mode, Origin};
 type Answer = Result<(Value, Flow), Refusal>;
 
 /// What this adapter can do.
-fn capabilities() -> Value {
+fn capabilities(goes_back: bool) -> Value {
     json!({
         "supportsConfigurationDoneRequest": true,
         "supportsCancelRequest": true,
@@ -33,7 +33,7 @@ fn capabilities() -> Value {
         "supportsVariablePaging": true,
         "supportsDataBreakpoints": true,
         "supportTerminateDebuggee": true,
-        "supportsStepBack": false,
+        "supportsStepBack": goes_back,
         "exceptionBreakpointFilters": [
             {"filter": "uncaught", "label": "Uncaught errors", "default": true},
             {"filter": "caught", "label": "Caught errors", "default": false},
@@ -85,7 +85,7 @@ impl Session {
         request: &Request,
     ) -> Option<Result<Value, Refusal>> {
         Some(match request.command.as_str() {
-            "initialize" => Ok(capabilities()),
+            "initialize" => Ok(capabilities(self.is_replay.get())),
             "launch" | "attach" => self.note_launch(request),
             // What it is about has ended already.
             "cancel" => Ok(Value::Null),
@@ -177,6 +177,8 @@ impl Session {
             "next" => self.step(sim, Mode::Over),
             "stepOut" => self.step(sim, Mode::Out),
             "stepIn" => self.step(sim, |_| Mode::Into),
+            "stepBack" => self.go_back(Travel::StepBack),
+            "reverseContinue" => self.go_back(Travel::ReverseContinue),
             "pause" => {
                 self.pause.set(true);
                 self.pause_is_late.set(false);
@@ -184,7 +186,7 @@ impl Session {
                 Ok((Value::Null, Flow::Stay))
             }
             "terminate" if self.is_attached => {
-                sim.stop();
+                sim.copied_out(|sim| sim.stop());
                 self.set_mode(Some(sim), Mode::Run);
                 gone_on(Value::Null)
             }
@@ -205,18 +207,22 @@ impl Session {
         }
     }
 
+    /// Goes to an earlier moment, which only a capture has.
+    fn go_back(&self, travel: Travel) -> Answer {
+        if !self.is_replay.get() {
+            let reason = "only a capture goes back: swanilda run SCENE --capture FILE.swc, then debug FILE.swc";
+            return Err(reason.into());
+        }
+        if !self.can_travel.get() {
+            return Err("the scene of the capture is being loaded: there is nothing before".into());
+        }
+        self.travel.set(Some(travel));
+        Ok((Value::Null, Flow::GoOn))
+    }
+
     /// Begins a step where the code stands still; elsewhere the next line of any script ends it.
     fn step(&self, sim: &Rc<Sim>, mode: impl FnOnce(Origin) -> Mode) -> Answer {
         let stop = self.stop.borrow().clone().ok_or("the code runs")?;
-        let runtime = stop
-            .origin
-            .and_then(|origin| sim.script(origin.script)?.current_runtime());
-        if let Some(debuggee) = runtime
-            .as_ref()
-            .and_then(|runtime| runtime.interpreter.debuggee())
-        {
-            debuggee.remember();
-        }
         self.set_mode(Some(sim), stop.origin.map_or(Mode::Into, mode));
         Ok((Value::Null, Flow::GoOn))
     }

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use script::{Container, Debuggee, Page, PageKind, Runtime, Sim, Variable};
+use script::{Container, Debuggee, Page, PageKind, Sim, Variable};
 use serde_json::{Value, json};
 
 use super::Session;
@@ -17,13 +17,18 @@ const MAX_FRAMES: usize = 1000;
 impl Session {
     /// Each script that runs is a thread.
     pub(super) fn threads(&self, sim: &Rc<Sim>) -> Value {
-        let scripts = sim.named_scripts().into_iter();
-        let running = scripts.filter(|(script, _)| {
-            let runtime = script.current_runtime();
-            runtime.is_some_and(|runtime| runtime.interpreter.debuggee().is_some())
+        let running = sim.copied_out(|sim| {
+            let scripts = sim.named_scripts().into_iter();
+            let running = scripts.filter(|(script, _)| {
+                let runtime = script.current_runtime();
+                runtime.is_some_and(|runtime| runtime.interpreter.debuggee().is_some())
+            });
+            let running = running.map(|(script, name)| (script.id, name));
+            running.collect::<Vec<_>>()
         });
         let mut threads: Vec<Value> = running
-            .map(|(script, name)| json!({"id": script.id, "name": name}))
+            .into_iter()
+            .map(|(id, name)| json!({"id": id, "name": name}))
             .collect();
         if threads.is_empty() {
             threads.push(json!({"id": self.default_thread(sim), "name": "simulation"}));
@@ -33,18 +38,19 @@ impl Session {
 
     /// The script that is shown where none runs.
     pub(super) fn default_thread(&self, sim: &Rc<Sim>) -> i64 {
-        let scripts = sim.named_scripts();
-        let running = scripts
-            .iter()
-            .find(|(script, _)| script.current_runtime().is_some());
-        running.map_or(1, |(script, _)| script.id)
+        sim.copied_out(|sim| {
+            let scripts = sim.named_scripts();
+            let running = scripts
+                .iter()
+                .find(|(script, _)| script.current_runtime().is_some());
+            running.map_or(1, |(script, _)| script.id)
+        })
     }
 
     pub(super) fn stack_trace(&self, sim: &Rc<Sim>, request: &Request) -> Result<Value, Refusal> {
         let script = request.number("threadId")?;
-        let runtime = runtime(sim, script)?;
         let (start, count) = (request.count("startFrame"), request.count("levels"));
-        let all = debuggee(&runtime)?.frames(MAX_FRAMES);
+        let all = asked(sim, script, |debuggee| Ok(debuggee.frames(MAX_FRAMES)))?;
         let count = if count == 0 { MAX_FRAMES } else { count };
         let mut shown = Vec::new();
         for frame in all.iter().skip(start).take(count) {
@@ -111,8 +117,9 @@ impl Session {
                 container,
                 frame,
             } => {
-                let runtime = runtime(sim, script)?;
-                let found = debuggee(&runtime)?.variables(container, page);
+                let found = asked(sim, script, |debuggee| {
+                    Ok(debuggee.variables(container, page))
+                })?;
                 let described = found
                     .into_iter()
                     .map(|variable| self.describe(script, frame, variable));
@@ -216,8 +223,8 @@ impl Session {
 
     pub(super) fn evaluate(&self, sim: &Rc<Sim>, request: &Request) -> Result<Value, Refusal> {
         let (script, frame) = self.place_of(sim, request)?;
-        let runtime = runtime(sim, script)?;
-        let value = debuggee(&runtime)?.evaluate(frame, request.text("expression")?)?;
+        let expression = request.text("expression")?;
+        let value = asked(sim, script, |debuggee| debuggee.evaluate(frame, expression))?;
         Ok(self.describe_result(script, frame, value))
     }
 
@@ -233,16 +240,16 @@ impl Session {
                 container,
                 frame,
             } => {
-                let runtime = runtime(sim, script)?;
-                let new = debuggee(&runtime)?.assign(container, name, frame, value)?;
+                let new = asked(sim, script, |debuggee| {
+                    debuggee.assign(container, name, frame, value)
+                })?;
                 Ok(self.describe(script, frame, new))
             }
             Node::Objects => Err("objects cannot be replaced".into()),
             Node::Object(handle) => {
                 let (script, _) = self.place_of(sim, request)?;
-                let runtime = runtime(sim, script)?;
-                let data = debuggee(&runtime)?.evaluate_data(None, value)?;
-                let new = objects::set_property(sim, handle, name, data)?;
+                let data = asked(sim, script, |debuggee| debuggee.evaluate_data(None, value))?;
+                let new = objects::set_property(sim, handle, name, &data)?;
                 Ok(json!({"value": new, "variablesReference": 0}))
             }
         }
@@ -256,24 +263,28 @@ impl Session {
     ) -> Result<Value, Refusal> {
         let (script, frame) = self.place_of(sim, request)?;
         let (expression, value) = (request.text("expression")?, request.text("value")?);
-        let runtime = runtime(sim, script)?;
-        let debuggee = debuggee(&runtime)?;
-        debuggee.evaluate(frame, &format!("{expression} = {value}"))?;
-        let new = debuggee.evaluate(frame, expression)?;
+        let new = asked(sim, script, |debuggee| {
+            debuggee.evaluate(frame, &format!("{expression} = {value}"))?;
+            debuggee.evaluate(frame, expression)
+        })?;
         Ok(self.describe(script, frame, new))
     }
 }
 
-/// The interpreter of a script.
-fn runtime(sim: &Rc<Sim>, script: i64) -> Result<Rc<Runtime>, Refusal> {
-    let script = sim.script(script);
-    let runtime = script.and_then(|script| script.current_runtime());
-    runtime.ok_or_else(|| "this script does not run".into())
-}
-
-fn debuggee(runtime: &Runtime) -> Result<&dyn Debuggee, Refusal> {
-    runtime
-        .interpreter
-        .debuggee()
-        .ok_or_else(|| "scripts of this language have a debugger of their own".into())
+/// What a script that can be debugged answers.
+pub(crate) fn asked<T: Clone>(
+    sim: &Rc<Sim>,
+    script: i64,
+    ask: impl FnOnce(&dyn Debuggee) -> Result<T, Refusal>,
+) -> Result<T, Refusal> {
+    sim.copied_out(|sim| {
+        let script = sim.script(script);
+        let runtime = script.and_then(|script| script.current_runtime());
+        let runtime = runtime.ok_or("this script does not run")?;
+        let debuggee = runtime
+            .interpreter
+            .debuggee()
+            .ok_or("scripts of this language have a debugger of their own")?;
+        ask(debuggee)
+    })
 }

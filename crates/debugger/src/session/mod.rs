@@ -8,6 +8,7 @@ mod answer;
 mod inspect;
 mod launching;
 mod stop;
+mod travel;
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeSet, VecDeque};
@@ -15,7 +16,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Duration;
 
-use script::{Armed, Debugger, LoadedText, Place, Script, Sim};
+use script::{Armed, Debuggee, Debugger, LoadedText, Place, Script, Sim};
 use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
@@ -24,9 +25,12 @@ use crate::link::{Incoming, Link};
 use crate::references::References;
 use crate::request::{Request, event};
 use crate::sources::{SourceKey, Sources};
-use crate::stepping::Mode;
+use crate::stepping::{Mode, Origin};
+pub(crate) use inspect::asked;
 pub use launching::Launch;
 use stop::Stop;
+use travel::Goal;
+pub use travel::Travel;
 
 /// How long to wait for a message before looking whether the program is to end.
 const POLL: Duration = Duration::from_millis(100);
@@ -35,13 +39,13 @@ const LAST_POLLS: u32 = 30;
 /// How long to wait for the last messages to be written.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
-/// A place in a run: it can be found again in the same run.
+/// A place in a run: it can be found again in a replay, where all traps are armed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
-    /// The simulation step.
-    pub step: u64,
-    /// How many armed traps code has come to in that step.
-    pub lines: u64,
+    /// The iteration of the application's loop, from 1.
+    pub turn: usize,
+    /// How many things have happened in it where code can stop: lines, calls, errors.
+    pub events: u64,
 }
 
 /// How the client wants the session to end.
@@ -82,6 +86,16 @@ pub struct Session {
     references: RefCell<References>,
     stop: RefCell<Option<Stop>>,
     launch: RefCell<Launch>,
+    /// A capture is replayed: the session can go back.
+    is_replay: Cell<bool>,
+    /// It is loaded.
+    can_travel: Cell<bool>,
+    /// What the replay looks for.
+    goal: RefCell<Goal>,
+    /// The last stop: its position, and where a step back from there begins.
+    last_stop: Cell<(Position, Option<Origin>)>,
+    /// Where the client wants to go.
+    travel: Cell<Option<Travel>>,
 }
 
 /// Which errors stop code.
@@ -125,6 +139,11 @@ impl Session {
             references: RefCell::default(),
             stop: RefCell::default(),
             launch: RefCell::default(),
+            is_replay: Cell::new(false),
+            can_travel: Cell::new(false),
+            goal: RefCell::default(),
+            last_stop: Cell::default(),
+            travel: Cell::new(None),
         })
     }
 
@@ -138,9 +157,14 @@ impl Session {
         self.position.get()
     }
 
+    /// The place where code has stopped last.
+    pub fn last_stop(&self) -> Position {
+        self.last_stop.get().0
+    }
+
     /// Sends text that scripts have printed, or the simulator has said. `category` is that of the protocol: `stdout`, `stderr`, `console`.
     pub fn print(&self, category: &str, text: &str) {
-        if self.has_client.get() {
+        if self.has_client.get() && self.goal.borrow().is_live() {
             self.send(event(
                 "output",
                 json!({"category": category, "output": text}),
@@ -191,6 +215,8 @@ impl Session {
         self.mode.set(Mode::Run);
         self.pause.set(false);
         self.position.set(Position::default());
+        self.goal.replace(Goal::default());
+        self.travel.set(None);
         self.breakpoints.borrow_mut().forget_hits();
     }
 
@@ -252,6 +278,18 @@ impl Session {
         }
     }
 
+    /// Remembers the coroutine where a step begins.
+    fn remember(&self, sim: &Rc<Sim>) {
+        if let Some(origin) = self.mode.get().origin() {
+            let remember = |debuggee: &dyn Debuggee| {
+                debuggee.remember();
+                Ok(())
+            };
+            // A script that has ended has nothing to remember.
+            let _ = inspect::asked(sim, origin.script, remember);
+        }
+    }
+
     /// Arms the traps of all scripts as breakpoints and steps want it.
     fn arm_all(&self, sim: Option<&Rc<Sim>>) {
         let Some(sim) = sim else { return };
@@ -271,7 +309,10 @@ impl Session {
     }
 
     fn armed(&self, text: &LoadedText) -> Armed {
-        if self.is_deaf.get() {
+        if self.is_replay.get() {
+            // They are counted, see `Position`.
+            Armed::All
+        } else if self.is_deaf.get() {
             Armed::Lines(BTreeSet::new())
         } else if self.mode.get().steps() || self.pause.get() {
             Armed::All
@@ -280,18 +321,16 @@ impl Session {
         }
     }
 
-    /// Counts the lines that code has come to.
-    fn advance(&self, sim: &Sim) {
-        let (step, before) = (sim.clock.steps(), self.position.get());
-        let lines = if step == before.step {
-            before.lines + 1
-        } else {
-            1
-        };
-        self.position.set(Position { step, lines });
+    /// Counts what has happened, and goes to the next position.
+    fn advance(&self) {
+        let Position { turn, events } = self.position.get();
+        let events = events + 1;
+        self.position.set(Position { turn, events });
     }
 
-    fn note_text(&self, text: &Rc<LoadedText>) {
+    fn note_text(&self, text: &LoadedText) {
+        // Kept longer than the simulator may have it.
+        let text = &Rc::new(text.clone());
         let key = SourceKey::of(text);
         let is_new = self.sources.borrow_mut().add(text);
         let changed = self.breakpoints.borrow_mut().place(&key, text);
@@ -322,25 +361,30 @@ impl Debugger for Session {
     }
 
     fn line_reached(&self, sim: &Rc<Sim>, place: &Place<'_>) {
-        self.advance(sim);
+        self.advance();
         self.last_error.borrow_mut().clear();
-        if !self.is_deaf.get() {
+        if self.listens(sim) {
             self.consider_line(sim, place);
         }
     }
 
     fn error_raised(&self, sim: &Rc<Sim>, script: &Rc<Script>, message: &str, is_caught: bool) {
+        self.advance();
         let Exceptions { caught, uncaught } = self.exceptions.get();
         let last = self.last_error.replace(message.to_owned());
         let is_passed_on = !last.is_empty() && message != last && message.contains(&last);
         let matters = if is_caught { caught } else { uncaught };
-        if matters && !is_passed_on && !self.is_deaf.get() {
+        if matters && !is_passed_on && self.listens(sim) {
             self.stop_at_error(sim, script, message, is_caught);
         }
     }
 
     fn scene_changed(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) {
-        if !self.is_deaf.get() && !self.data.borrow().is_empty() && self.stop.borrow().is_none() {
+        if self.stop.borrow().is_some() {
+            return;
+        }
+        self.advance();
+        if !self.is_deaf.get() && !sim.is_abandoned() && !self.data.borrow().is_empty() {
             self.consider_changes(sim, script);
         }
     }
@@ -349,15 +393,18 @@ impl Debugger for Session {
         if self.stop.borrow().is_some() {
             return self.looks_while_stopped();
         }
-        while let Some(incoming) = self.link.try_receive() {
-            self.receive(Some(sim), incoming);
-        }
         if script.is_none() {
-            self.scene_changed(sim, None);
+            let turn = self.position.get().turn + 1;
+            self.position.set(Position { turn, events: 0 });
+        }
+        while self.goal.borrow().is_live()
+            && let Some(incoming) = self.link.try_receive()
+        {
+            self.receive(Some(sim), incoming);
         }
         // In the middle of code, the next line is a better place, if there is one: expressions can be interrupted there.
         let waits_for_line = script.is_some() && !self.pause_is_late.replace(true);
-        if self.pause.get() && !waits_for_line && !self.is_deaf.get() {
+        if self.pause.get() && !waits_for_line && self.listens(sim) {
             self.stop_for_pause(sim, script);
         }
         self.ending.get().is_some()

@@ -6,7 +6,7 @@ use std::time::Instant;
 use script::{Place, Script, Sim, wall_clock};
 use serde_json::{Value, json};
 
-use super::{Flow, Session};
+use super::{Flow, Session, inspect};
 use crate::breakpoints::Rule;
 use crate::request::event;
 use crate::stepping::{Mode, Origin};
@@ -45,10 +45,11 @@ impl Reason {
 impl Session {
     /// Stops at a line if a breakpoint or a step wants it.
     pub(super) fn consider_line(&self, sim: &Rc<Sim>, place: &Place<'_>) {
+        self.note_line(place);
         let at = self.breakpoints.borrow().at(place.text, place.line);
         let hit: Vec<_> = at
             .into_iter()
-            .filter(|(id, _)| self.is_hit(place, *id))
+            .filter(|(id, _)| self.is_hit(sim, place, *id))
             .collect();
         let reason = if let Some((_, of_function)) = hit.first() {
             Reason {
@@ -61,7 +62,7 @@ impl Session {
             }
         } else if self.pause.get() {
             Reason::new("pause")
-        } else if self.mode.get().ends_at(place, self.origin_now(sim)) {
+        } else if self.mode_now().ends_at(place, self.origin_now(sim)) {
             Reason::new("step")
         } else {
             return;
@@ -77,21 +78,25 @@ impl Session {
     /// The coroutine in which a step began, as it is now.
     fn origin_now(&self, sim: &Rc<Sim>) -> Option<script::CodeLevel> {
         let origin = self.mode.get().origin()?;
-        let runtime = sim.script(origin.script)?.current_runtime()?;
-        let now = runtime.interpreter.debuggee()?.remembered()?;
+        let remembered = inspect::asked(sim, origin.script, |debuggee| Ok(debuggee.remembered()));
+        let now = remembered.ok()??;
         (now.coroutine == origin.level.coroutine).then_some(now)
     }
 
     /// Whether a breakpoint stops the code: its condition is true, for the right time, and it prints nothing instead.
-    fn is_hit(&self, place: &Place<'_>, id: u64) -> bool {
+    fn is_hit(&self, sim: &Rc<Sim>, place: &Place<'_>, id: u64) -> bool {
         let rule = self
             .breakpoints
             .borrow_mut()
             .get_mut(id)
             .map(|found| found.rule.clone());
         let Some(rule) = rule else { return false };
-        if !self.condition_holds(place, &rule) {
+        if !self.condition_holds(sim, place, &rule) {
             return false;
+        }
+        if !self.goal.borrow().is_live() {
+            // On the way to another moment, nothing is counted nor printed.
+            return rule.log.is_none();
         }
         let hits = self.breakpoints.borrow_mut().get_mut(id).map(|found| {
             found.hits += 1;
@@ -104,17 +109,17 @@ impl Session {
             return false;
         }
         if let Some(text) = &rule.log {
-            self.log(place, text);
+            self.log(sim, place, text);
         }
         rule.log.is_none()
     }
 
     /// A condition that fails stops the code too, and says why.
-    fn condition_holds(&self, place: &Place<'_>, rule: &Rule) -> bool {
+    fn condition_holds(&self, sim: &Rc<Sim>, place: &Place<'_>, rule: &Rule) -> bool {
         let Some(condition) = &rule.condition else {
             return true;
         };
-        match evaluate_at(place, condition) {
+        match self.evaluate_at(sim, place, condition) {
             Ok(value) => value != "nil" && value != "false",
             Err(reason) => {
                 self.print(
@@ -126,14 +131,34 @@ impl Session {
         }
     }
 
+    /// The value of an expression in the function that is at a place.
+    fn evaluate_at(
+        &self,
+        sim: &Rc<Sim>,
+        place: &Place<'_>,
+        expression: &str,
+    ) -> Result<String, String> {
+        let evaluate = || {
+            inspect::asked(sim, place.script.id, |debuggee| {
+                let frame = debuggee.frames(1).first().map(|frame| frame.id);
+                Ok(debuggee.evaluate(frame, expression)?.value)
+            })
+        };
+        if self.is_replay.get() {
+            sim.without_trace(evaluate)
+        } else {
+            evaluate()
+        }
+    }
+
     /// Prints the text of a log point, with the values of what is in braces.
-    fn log(&self, place: &Place<'_>, text: &str) {
+    fn log(&self, sim: &Rc<Sim>, place: &Place<'_>, text: &str) {
         let (mut shown, mut rest) = (String::new(), text);
         while let Some((before, after)) = rest.split_once('{')
             && let Some((expression, after)) = after.split_once('}')
         {
             shown.push_str(before);
-            match evaluate_at(place, expression) {
+            match self.evaluate_at(sim, place, expression) {
                 Ok(value) => shown.push_str(&value),
                 Err(reason) => shown.push_str(&format!("<{reason}>")),
             }
@@ -148,8 +173,9 @@ impl Session {
 
     /// Stops if a watched property has changed: by the call that the script has just made, or without one.
     pub(super) fn consider_changes(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) {
-        let changes = self.data.borrow_mut().changes(sim);
-        if changes.is_empty() {
+        let counts = self.goal.borrow().is_live();
+        let changes = self.data.borrow_mut().changes(sim, counts);
+        if changes.is_empty() || !self.listens(sim) {
             return;
         }
         let by = match script {
@@ -209,12 +235,35 @@ impl Session {
         if self.stop.borrow().is_some() || !self.has_client.get() {
             return;
         }
+        if !self.goal.borrow().is_live() && !self.reaches() {
+            return;
+        }
         let begun: Instant = wall_clock::now();
         self.pause.set(false);
-        self.set_mode(Some(sim), Mode::Run);
+        self.last_stop.set((self.position.get(), stop.origin));
+        self.mode.set(Mode::Run);
         let thread = stop.script.unwrap_or_else(|| self.default_thread(sim));
         self.stop.replace(Some(stop));
         self.send(stopped_event(thread, reason));
+        if self.is_replay.get() {
+            // What the client looks at and changes is no part of the run.
+            sim.without_trace(|| self.answer_until_it_goes_on(sim));
+        } else {
+            self.answer_until_it_goes_on(sim);
+            self.forget_values(sim);
+            sim.clock.leave_out(begun.elapsed().as_secs_f64());
+        }
+        self.stop.replace(None);
+        self.references.borrow_mut().clear();
+        self.remember(sim);
+        self.arm_all(Some(sim));
+        if self.travel.get().is_some() {
+            self.pass();
+            sim.abandon();
+        }
+    }
+
+    fn answer_until_it_goes_on(&self, sim: &Rc<Sim>) {
         while !sim.options.is_interrupted() {
             let Some(incoming) = self.next_incoming() else {
                 continue;
@@ -223,26 +272,24 @@ impl Session {
                 break;
             }
         }
-        self.stop.replace(None);
-        self.forget_values(sim);
-        sim.clock.leave_out(begun.elapsed().as_secs_f64());
     }
 
     fn forget_values(&self, sim: &Rc<Sim>) {
-        self.references.borrow_mut().clear();
-        for (script, _) in sim.named_scripts() {
-            let runtime = script.current_runtime();
-            if let Some(debuggee) = runtime
-                .as_ref()
-                .and_then(|runtime| runtime.interpreter.debuggee())
-            {
-                debuggee.forget_values();
+        sim.copied_out(|sim| {
+            for (script, _) in sim.named_scripts() {
+                let runtime = script.current_runtime();
+                if let Some(debuggee) = runtime
+                    .as_ref()
+                    .and_then(|runtime| runtime.interpreter.debuggee())
+                {
+                    debuggee.forget_values();
+                }
             }
-        }
+        });
     }
 }
 
-fn origin(place: &Place<'_>) -> Origin {
+pub(super) fn origin(place: &Place<'_>) -> Origin {
     Origin {
         script: place.script.id,
         level: place.level(),
@@ -259,13 +306,4 @@ fn stopped_event(thread: i64, reason: &Reason) -> Value {
         body["description"] = json!(description);
     }
     event("stopped", body)
-}
-
-/// The value of an expression in the function that is at a place.
-fn evaluate_at(place: &Place<'_>, expression: &str) -> Result<String, String> {
-    let gone = "the script has ended";
-    let runtime = place.script.current_runtime().ok_or(gone)?;
-    let debuggee = runtime.interpreter.debuggee().ok_or(gone)?;
-    let frame = debuggee.frames(1).first().map(|frame| frame.id);
-    Ok(debuggee.evaluate(frame, expression)?.value)
 }

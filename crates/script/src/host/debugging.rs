@@ -3,6 +3,9 @@
 //! The interpreters of a simulator with a [`Debugger`] report to it what they load, and when code reaches a place where it has a trap. While it
 //! answers, everything stands still: it is called on the thread of the simulator, in the middle of the code. It looks at the scripts by
 //! [`Debuggee`].
+//!
+//! A debugger lives outside of the simulator's memory, which may be brought back to an earlier moment: it is called outside, asks inside by
+//! [`Sim::copied_out`], and keeps nothing that lies inside.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -23,7 +26,7 @@ pub trait Debugger {
     /// Code has raised an error that it does not catch, or that `is_caught`. The calls are those where it was raised.
     fn error_raised(&self, sim: &Rc<Sim>, script: &Rc<Script>, message: &str, is_caught: bool);
 
-    /// A call of a script has perhaps changed the scene.
+    /// A call of a script has perhaps changed the scene; without one, an iteration of the application's loop.
     fn scene_changed(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>);
 
     /// Nothing runs, or code runs that does not end, also code that the debugger has asked for; `script` is the one that does. Returns whether
@@ -32,7 +35,7 @@ pub trait Debugger {
 }
 
 /// A text whose lines can have traps.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct LoadedText {
     /// Its name in the interpreter.
     pub chunk_name: Vec<u8>,
@@ -209,11 +212,47 @@ pub trait Debuggee {
 }
 
 impl Sim {
-    /// Calls `notify` with the debugger, if there is one.
+    /// Calls `notify` with the debugger, if there is one, in the memory of the program.
     pub(crate) fn notify_debugger(self: &Rc<Self>, notify: impl FnOnce(&Rc<dyn Debugger>)) {
         if let Some(debugger) = self.scripts.debugger.get() {
-            notify(debugger);
+            heap::outside(|| notify(debugger));
         }
+    }
+
+    /// Whether code has traps: there is a debugger, or the run is captured, and one may come to its replays.
+    pub(crate) fn has_traps(&self) -> bool {
+        self.scripts.debugger.get().is_some() || self.options.permissions.tape().is_on()
+    }
+
+    /// What `work` computes in the memory of the simulator, copied out of it: for debuggers.
+    pub fn copied_out<T: Clone>(self: &Rc<Self>, work: impl FnOnce(&Rc<Self>) -> T) -> T {
+        heap::outside(|| heap::enter_and_copy(self.heap, || work(self)))
+    }
+
+    /// Does something in the midst of code, and undoes it: the memory of the simulator is what it was before. The tape gives nothing meanwhile.
+    /// `work` keeps nothing of that memory.
+    #[expect(unsafe_code, reason = "memory is brought back")]
+    pub fn without_trace<T>(self: &Rc<Self>, work: impl FnOnce() -> T) -> T {
+        let tape = self.options.permissions.tape();
+        let moment = self.heap.map(heap::Handle::moment);
+        tape.suspend(true);
+        let result = heap::outside(work);
+        tape.suspend(false);
+        if let Some(moment) = moment {
+            // SAFETY: the code inside has stood still on the stack below, and `work` is over; a debugger keeps nothing inside.
+            unsafe { moment.bring_back() };
+        }
+        result
+    }
+
+    /// Ends the code that runs, with errors, so that another moment can be brought back. What comes until then does not count.
+    pub fn abandon(&self) {
+        self.is_abandoned.set(true);
+    }
+
+    /// Whether what happens does not count any more.
+    pub fn is_abandoned(&self) -> bool {
+        self.is_abandoned.get()
     }
 
     /// All scripts that have been looked up, with names as in the log: objects first, then those that are none.

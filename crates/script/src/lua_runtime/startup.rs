@@ -35,7 +35,7 @@ pub(super) fn fill(
         stack.env().log(verbosity::SCRIPT_WARNINGS, &warning);
     });
     lua::restrict_debug(stack);
-    if sim.scripts.debugger.get().is_some() {
+    if sim.has_traps() {
         // Before the library puts a function of its own in front of it.
         lua::report_caught_errors(stack);
     }
@@ -78,7 +78,7 @@ pub(super) fn fill(
     if sim.options.count_lines {
         coverage::install(sim, stack)?;
     }
-    if sim.scripts.debugger.get().is_some() {
+    if sim.has_traps() {
         debugging::install(sim, stack)?;
     }
     if sim.options.limits.is_some() {

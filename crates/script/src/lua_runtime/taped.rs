@@ -2,6 +2,7 @@
 
 use std::ffi::{CStr, c_int};
 
+use super::debugging;
 use crate::binding::data::{push_data, read_data};
 use crate::lua::{Stack, push_callback};
 use crate::tape::Taped;
@@ -104,6 +105,7 @@ fn code(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     };
     match read {
         Ok(bytes) => {
+            debugging::note_file(stack, &path, &bytes);
             stack.push_bytes(&bytes);
             Ok(1)
         }

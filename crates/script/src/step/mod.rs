@@ -43,6 +43,7 @@ impl Sim {
         self.remove_delayed();
         self.save_app_storage();
         self.deliver_ui_events();
+        self.notify_debugger(|debugger| debugger.scene_changed(self, None));
     }
 
     fn step_if_due(self: &Rc<Self>) {

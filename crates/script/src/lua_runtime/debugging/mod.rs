@@ -28,6 +28,8 @@ use scene::object::script_object::ScriptType;
 
 /// Most functions with traps that a state loads: Lua code can load as many as it likes.
 const MAX_TEXTS: usize = 1000;
+/// The error of code that runs while a debugger goes to another moment.
+const ABANDONED: &str = "the debugger goes to another moment.";
 /// Registry key of the table whose change calls the debugger.
 const TRAPS: &CStr = c"swanilda.debugger";
 /// Registry key of the coroutine that steps begin in.
@@ -37,6 +39,8 @@ const REMEMBERED: &CStr = c"swanilda.debugger.coroutine";
 #[derive(Default)]
 struct Debugged {
     texts: RefCell<Vec<(Rc<LoadedText>, LiveCode)>>,
+    /// The name and the text of the file that is loaded next, where files are read from a tape.
+    next_file: RefCell<Option<(PathBuf, Vec<u8>)>>,
     /// An expression is evaluated, in that function if there is one: nothing stops.
     is_evaluating: Cell<bool>,
     frame: Cell<Option<FrameId>>,
@@ -73,11 +77,22 @@ pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     stack.raw_set_field(-2, "__newindex");
     stack.set_metatable(-2);
     stack.set_registry(TRAPS);
+    // What steps remember takes no memory of its own then.
+    stack.push_bool(false);
+    stack.set_registry(REMEMBERED);
     load_module(stack, sim, "loaders")?;
     push_callback(stack, loaded, 0);
     stack.push_bytes(b"(debugger)");
     stack.push_registry(TRAPS);
     stack.protected_call(3, 0)
+}
+
+/// Notes the text of a file that is loaded next: there may be no such file in a replay.
+pub(super) fn note_file(stack: Stack<'_>, name: &[u8], text: &[u8]) {
+    if let Some(debugged) = Debugged::of(stack) {
+        let name = PathBuf::from(&*String::from_utf8_lossy(name));
+        debugged.next_file.replace(Some((name, text.to_vec())));
+    }
 }
 
 pub(super) fn is_installed(stack: Stack<'_>) -> bool {
@@ -111,7 +126,8 @@ impl Debugged {
         ) else {
             return;
         };
-        let Some(text) = read(&sim, stack.env(), chunk_name, own) else {
+        let file = self.next_file.take();
+        let Some(text) = read(&sim, stack.env(), chunk_name, own, file) else {
             return;
         };
         if let Some(code) = with_traps(stack, &text.lines) {
@@ -133,7 +149,13 @@ fn with_traps(stack: Stack<'_>, lines: &BTreeSet<u32>) -> Option<LiveCode> {
 }
 
 /// A text with that name, as people see it; None where it cannot be found.
-fn read(sim: &Sim, env: &Env, chunk_name: Vec<u8>, own: Option<&[u8]>) -> Option<LoadedText> {
+fn read(
+    sim: &Sim,
+    env: &Env,
+    chunk_name: Vec<u8>,
+    own: Option<&[u8]>,
+    next_file: Option<(PathBuf, Vec<u8>)>,
+) -> Option<LoadedText> {
     let named = chunk_name
         .strip_prefix(b"@")
         .map(|name| PathBuf::from(&*String::from_utf8_lossy(name)));
@@ -145,7 +167,11 @@ fn read(sim: &Sim, env: &Env, chunk_name: Vec<u8>, own: Option<&[u8]>) -> Option
     let (text, file) = match own {
         Some(text) => (text.to_vec(), named.or_else(of_script)),
         None => match named {
-            Some(file) => (read_text(&file)?, Some(file)),
+            Some(file) => match next_file.filter(|(name, _)| *name == file) {
+                Some((_, text)) => (text, Some(file)),
+                None if sim.options.permissions.tape().is_on() => return None,
+                None => (read_text(&file)?, Some(file)),
+            },
             // Without a name, the text is the name.
             None => (chunk_name.clone(), None),
         },
@@ -201,6 +227,9 @@ fn reached(stack: Stack<'_>) -> Outcome {
             },
         };
         sim.notify_debugger(|debugger| debugger.line_reached(&sim, &place));
+        if sim.is_abandoned.get() {
+            return Outcome::Raise(ABANDONED.to_owned());
+        }
     }
     Outcome::Results(0)
 }
@@ -238,7 +267,9 @@ fn is_called_by_script(debugged: &Debugged, stack: Stack<'_>) -> bool {
 fn asked(stack: Stack<'_>) -> bool {
     let debugger = |sim: Rc<Sim>| {
         let debugger = sim.scripts.debugger.get()?;
-        Some(debugger.look(&sim, Some(&stack.env().script)))
+        let script = &stack.env().script;
+        let is_to_end = heap::outside(|| debugger.look(&sim, Some(script)));
+        Some(is_to_end || sim.is_abandoned.get())
     };
     let is_to_end = stack.env().sim.upgrade().and_then(debugger);
     is_to_end.unwrap_or(false)
