@@ -12,11 +12,12 @@ use super::graphs::GraphArgs;
 use super::hashes::{Compared, HashArgs};
 use super::interrupt::Interrupt;
 use super::launch::Launch;
-use super::live::Live;
+use super::live::{Live, Viewed};
 use super::output::Output;
 use super::progress::Progress;
 use super::recording::RecordArgs;
 use super::remote::Remote;
+use super::replay::CommandLoop;
 use super::session::{END, Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
@@ -25,9 +26,7 @@ use super::{Outcome, USAGE, complain, isolated};
 use capture::Tape;
 use format::robot_file::RobotFile;
 use permissions::Permissions;
-use simulator::{
-    Options, RunLimits, RunObserver, RunTotals, ScriptKind, SimulationState, Simulator,
-};
+use simulator::{Builder, Options, Run, RunLimits, RunObserver, RunTotals, ScriptKind, Simulator};
 use view::Viewer;
 
 /// Exit code when a script raised an error.
@@ -110,7 +109,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         args.limits(),
         args.setup.quiet || args.setup.json || args.no_start,
     );
-    let mut launch = Launch::new(
+    let launch = Launch::new(
         &args.setup,
         Some(&args.remote),
         Some(&args.scene),
@@ -119,10 +118,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         &tape,
     )?;
     let begun = Instant::now();
-    let permissions = Permissions::all().on_tape(&tape);
-    let is_robot = RobotFile::is_one(&args.scene, &permissions);
-    launch.fill(args.kind.into());
-    launch.serve(&args.remote, args.remote.asks_for_zmq())?;
+    let (launch, is_robot) = args.fill(launch, &tape)?;
     let Launch {
         mut sim,
         output,
@@ -213,6 +209,47 @@ fn count(text: &str) -> Result<u64, String> {
 }
 
 impl Args {
+    /// Fills the scene and starts the remote APIs; also whether the scene is a robot.
+    fn fill<'a>(&self, mut launch: Launch<'a>, tape: &Tape) -> Result<(Launch<'a>, bool), String> {
+        let permissions = Permissions::all().on_tape(tape);
+        let is_robot = RobotFile::is_one(&self.scene, &permissions);
+        launch.fill(self.kind.into());
+        launch.serve(&self.remote, self.remote.asks_for_zmq())?;
+        Ok((launch, is_robot))
+    }
+
+    /// The simulator of a capture at the beginning of its loop, and that loop.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(super) fn played(
+        &self,
+        tape: &Tape,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<(Simulator, CommandLoop), String> {
+        let launch = Launch::played(
+            &self.setup,
+            &self.remote,
+            Some(&self.scene),
+            tape,
+            interrupt,
+            build,
+        )?;
+        let (launch, _) = self.fill(launch, tape)?;
+        let mut sim = launch.sim;
+        let command_loop = if self.view.is_asked_for() {
+            CommandLoop::Viewed(self.viewed(&mut sim))
+        } else if self.no_start {
+            CommandLoop::Free { left: self.loops }
+        } else if sim.errors() > 0 && !self.has_end() {
+            CommandLoop::Free { left: 0 }
+        } else {
+            CommandLoop::Run(Run::begin(&mut sim, self.limits()))
+        };
+        Ok((sim, command_loop))
+    }
+
     /// A simulator with the scene in it, which `build` makes of the options.
     ///
     /// # Errors
@@ -302,33 +339,16 @@ impl Args {
 
     /// The same with pages that look on, which may pause and resume the simulation as long as they like.
     fn run_viewed(&self, sim: &mut Simulator, mut live: Live, interrupt: &Interrupt) -> RunTotals {
-        let mut totals = RunTotals::default();
-        let mut loops = 0;
-        let mut stops = false;
+        let mut viewed = self.viewed(sim);
+        while viewed.iterate(sim, &mut live, || interrupt.is_requested()) {}
+        viewed.totals()
+    }
+
+    fn viewed(&self, sim: &mut Simulator) -> Viewed {
         if !self.no_start {
             sim.start();
         }
-        while !sim.quit_requested() {
-            let wants_end = sim.tape().signal(END, || interrupt.is_requested());
-            let is_over = if self.no_start {
-                loops >= self.loops
-            } else {
-                sim.state() == SimulationState::Stopped
-            };
-            if is_over || wants_end && self.no_start {
-                break;
-            }
-            if !stops && (wants_end || self.limits().are_reached(sim)) {
-                stops = true;
-                sim.request_stop();
-            }
-            let (steps, time) = (sim.steps(), sim.time());
-            live.iterate(sim);
-            loops += 1;
-            totals.steps += sim.steps().saturating_sub(steps);
-            totals.time += (sim.time() - time).max(0.0);
-        }
-        totals
+        Viewed::new(self.limits(), self.no_start.then_some(self.loops))
     }
 
     fn has_end(&self) -> bool {

@@ -4,13 +4,16 @@ use std::path::PathBuf;
 
 use super::Outcome;
 use super::capture::{CaptureArgs, finish};
+use super::interrupt::Interrupt;
 use super::launch::Launch;
 use super::live::Live;
 use super::progress::Progress;
 use super::remote::Remote;
+use super::replay::CommandLoop;
 use super::setup::Setup;
 use super::view::ViewArgs;
-use simulator::{RunLimits, ScriptKind};
+use capture::Tape;
+use simulator::{Builder, RunLimits, ScriptKind, Simulator};
 
 /// Start a simulator that remote API clients control
 #[derive(clap::Args)]
@@ -42,8 +45,7 @@ pub(super) fn serve(args: &Args) -> Outcome {
         None,
         &tape,
     )?;
-    launch.fill(ScriptKind::Customization);
-    launch.serve(&args.remote, !args.no_remote_api)?;
+    args.fill(&mut launch)?;
     let Launch {
         mut sim,
         output,
@@ -56,4 +58,33 @@ pub(super) fn serve(args: &Args) -> Outcome {
     drop(sim);
     finish(&tape);
     Ok(code)
+}
+
+impl Args {
+    fn fill(&self, launch: &mut Launch) -> Result<(), String> {
+        launch.fill(ScriptKind::Customization);
+        launch.serve(&self.remote, !self.no_remote_api)
+    }
+
+    /// The simulator of a capture at the beginning of its loop, and that loop.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(super) fn played(
+        &self,
+        tape: &Tape,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<(Simulator, CommandLoop), String> {
+        let mut launch = Launch::played(
+            &self.setup,
+            &self.remote,
+            self.scene.as_deref(),
+            tape,
+            interrupt,
+            build,
+        )?;
+        self.fill(&mut launch)?;
+        Ok((launch.sim, CommandLoop::Live))
+    }
 }

@@ -13,10 +13,12 @@ use super::live::Live;
 use super::output::Output;
 use super::progress::Progress;
 use super::remote::Remote;
+use super::replay::CommandLoop;
 use super::run::Kind;
 use super::setup::Setup;
 use super::watchdog::Watchdog;
-use simulator::{RunLimits, Simulator};
+use capture::Tape;
+use simulator::{Builder, RunLimits, Simulator};
 use view::{RecordedViewer, Viewer};
 
 /// Interval between checks for ctrl-c while a recording is shown.
@@ -145,8 +147,7 @@ pub(super) fn view(args: &Args) -> Outcome {
         &launch.output,
         &launch.watchdog,
     )?;
-    launch.fill(args.kind.into());
-    launch.serve(&args.remote, args.remote.asks_for_zmq())?;
+    args.fill(&mut launch)?;
     let Launch {
         mut sim, interrupt, ..
     } = launch;
@@ -188,6 +189,38 @@ fn view_recording(args: &Args, path: &Path) -> Outcome {
 }
 
 impl Args {
+    fn fill(&self, launch: &mut Launch) -> Result<(), String> {
+        launch.fill(self.kind.into());
+        launch.serve(&self.remote, self.remote.asks_for_zmq())
+    }
+
+    /// The simulator of a capture at the beginning of its loop, and that loop.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(super) fn played(
+        &self,
+        tape: &Tape,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<(Simulator, CommandLoop), String> {
+        let mut launch = Launch::played(
+            &self.setup,
+            &self.remote,
+            self.scene.as_deref(),
+            tape,
+            interrupt,
+            build,
+        )?;
+        self.fill(&mut launch)?;
+        let mut sim = launch.sim;
+        sim.set_pace(self.speed);
+        if !self.paused {
+            sim.start();
+        }
+        Ok((sim, CommandLoop::Live))
+    }
+
     fn open_browser(&self, url: &str) {
         if !self.no_open && !self.setup.json {
             open_browser(url);

@@ -1,5 +1,7 @@
 //! `swanilda debug`: runs a scene for a debugger that speaks the Debug Adapter Protocol.
 
+mod capture;
+
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -10,6 +12,7 @@ use clap::Parser;
 use super::debugging::{listen, standard_streams};
 use super::interrupt::Interrupt;
 use super::progress::Progress;
+use super::replay::is_capture;
 use super::session::rest;
 use super::{Outcome, USAGE, run};
 use debugger::{Ending, Launch, Link, Session};
@@ -21,7 +24,7 @@ use simulator::{Console, LogLine, Options, RunObserver, Simulator};
 /// Speaks the Debug Adapter Protocol on standard input and output, or on a port of this machine.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack [default: what the editor launches]
+    /// Scene: a Lua file, a CoppeliaSim file, a folder made by unpack, or a capture (.swc), in which steps go back as well [default: what the editor launches]
     scene: Option<PathBuf>,
     /// Listen on this port instead of standard input (0: any free port, which is printed)
     #[arg(long, value_name = "PORT")]
@@ -46,6 +49,9 @@ struct Launched {
 pub(super) fn debug(args: &Args) -> Outcome {
     let interrupt = Interrupt::of_scripts_here();
     let session = Session::new(connect(args)?, false);
+    if args.scene.as_deref().is_some_and(is_capture) {
+        session.expect_replay();
+    }
     while let Some(launch) = session.wait_for_launch(|| interrupt.is_requested()) {
         let code = run_once(args, &launch, &session, &interrupt).unwrap_or_else(|reason| {
             session.print("stderr", &format!("{reason}\n"));
@@ -74,6 +80,10 @@ fn run_once(
     if let Some(folder) = &launch.cwd {
         std::env::set_current_dir(folder)
             .map_err(|error| format!("cannot run in {}: {error}", folder.display()))?;
+    }
+    let program = launch.program.as_ref().or(args.scene.as_ref());
+    if let Some(file) = program.filter(|program| is_capture(program)) {
+        return capture::debug(file, session, interrupt);
     }
     let launched = command_line(args, launch)?;
     let progress = Progress::new(launched.run.limits(), true);

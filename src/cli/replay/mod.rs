@@ -2,6 +2,10 @@
 //!
 //! The command line of the capture is performed again with a tape that replays: what the run asks of the world outside comes from the capture.
 
+mod command_loop;
+mod moments;
+mod open;
+
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -16,6 +20,9 @@ use serde_json::json;
 use super::session::capture::CaptureArgs;
 use super::setup::Setup;
 use super::{Cli, Command, Outcome, complain};
+pub(super) use command_loop::CommandLoop;
+use moments::MomentArgs;
+pub(super) use open::{is_capture, open};
 
 /// Exit code when the run differs from its capture.
 const DIFFERS: u8 = 1;
@@ -34,6 +41,8 @@ pub(super) struct Args {
     /// Suppress status messages
     #[arg(long, short)]
     quiet: bool,
+    #[command(flatten)]
+    moments: MomentArgs,
 }
 
 /// The command line of a capture is being read: folders that it names need not be there.
@@ -46,6 +55,9 @@ pub(super) fn reads_capture() -> bool {
 
 /// Repeats the run; the exit code says whether it was the same.
 pub(super) fn replay(args: &Args) -> Outcome {
+    if args.moments.is_any() {
+        return moments::answer(args);
+    }
     let unreadable = |reason: String| format!("cannot read {}: {reason}", args.capture.display());
     let (tape, header) =
         Tape::replaying(&args.capture).map_err(|error| unreadable(error.to_string()))?;
@@ -162,13 +174,17 @@ fn report(verdict: &Verdict, is_json: bool, is_quiet: bool) {
         ),
     };
     if is_json {
-        let line = json!({ "type": "replay", "outcome": outcome, "step": steps, "text": text });
-        let line = format!("{line}\n");
-        let _ = match reserve_standard_output() {
-            Some(mut out) => out.write_all(line.as_bytes()),
-            None => std::io::stdout().write_all(line.as_bytes()),
-        };
+        print_json(&json!({ "type": "replay", "outcome": outcome, "step": steps, "text": text }));
     } else if !is_quiet || code_of(verdict) != 0 {
         let _ = writeln!(std::io::stderr(), "{text}");
     }
+}
+
+/// Prints a value as a line, also where the run has ended the program's own output.
+fn print_json(value: &serde_json::Value) {
+    let line = format!("{value}\n");
+    let _ = match reserve_standard_output() {
+        Some(mut out) => out.write_all(line.as_bytes()),
+        None => std::io::stdout().write_all(line.as_bytes()),
+    };
 }

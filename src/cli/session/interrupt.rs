@@ -45,6 +45,15 @@ impl Interrupt {
         )
     }
 
+    /// Nobody listens: ctrl-c does what the system does by default.
+    pub(in crate::cli) fn none() -> Self {
+        Self {
+            requested: Arc::default(),
+            signal: Arc::default(),
+            scripts: None,
+        }
+    }
+
     /// Watches the scripts that are interrupted. `is_told`: standard error is told of calls that take long.
     pub(in crate::cli) fn watchdog(&self, is_told: bool) -> Watchdog {
         self.scripts

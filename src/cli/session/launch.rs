@@ -9,7 +9,7 @@ use super::setup::{Setup, Sources};
 use super::watchdog::Watchdog;
 use crate::cli::remote::Remote;
 use capture::Tape;
-use simulator::{Options, ScriptKind, Simulator};
+use simulator::{Builder, Options, RunLimits, ScriptKind, Simulator};
 
 /// A simulator of the command line, and what reports about it.
 pub(in crate::cli) struct Launch<'a> {
@@ -20,6 +20,14 @@ pub(in crate::cli) struct Launch<'a> {
     pub output: Output,
     pub interrupt: Interrupt,
     pub watchdog: Watchdog,
+}
+
+/// What is around a simulator.
+struct Around {
+    interrupt: Interrupt,
+    output: Output,
+    watchdog: Watchdog,
+    plugin_note: Option<PathBuf>,
 }
 
 impl<'a> Launch<'a> {
@@ -36,10 +44,61 @@ impl<'a> Launch<'a> {
         plugin_note: Option<PathBuf>,
         tape: &Tape,
     ) -> Result<Self, String> {
-        let sources = setup.sources(scene, tape)?;
         let interrupt = Interrupt::of_scripts_here();
-        let watchdog = interrupt.watchdog(setup.has_own_messages());
-        let output = setup.output(progress, &interrupt);
+        let around = Around {
+            watchdog: interrupt.watchdog(setup.has_own_messages()),
+            output: setup.output(progress, &interrupt),
+            interrupt,
+            plugin_note,
+        };
+        let session = setup.debug.session()?;
+        let console = Box::new(around.output.clone());
+        Self::made(setup, remote, scene, tape, around, |builder| {
+            let builder = builder.console(console);
+            match session {
+                Some(session) => builder.debugger(session),
+                None => builder,
+            }
+        })
+    }
+
+    /// The same for a replay whose surroundings are others: `build` adds a console, and a debugger if there is one.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(in crate::cli) fn played(
+        setup: &'a Setup,
+        remote: &Remote,
+        scene: Option<&'a Path>,
+        tape: &Tape,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Self, String> {
+        let progress = Progress::new(RunLimits::default(), true);
+        let around = Around {
+            watchdog: Watchdog::default(),
+            output: setup.output(&progress, interrupt),
+            interrupt: interrupt.clone(),
+            plugin_note: None,
+        };
+        Self::made(setup, Some(remote), scene, tape, around, build)
+    }
+
+    fn made(
+        setup: &'a Setup,
+        remote: Option<&Remote>,
+        scene: Option<&'a Path>,
+        tape: &Tape,
+        around: Around,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Self, String> {
+        let Around {
+            interrupt,
+            output,
+            watchdog,
+            plugin_note,
+        } = around;
+        let sources = setup.sources(scene, tape)?;
         let options = Options {
             plugin_note,
             ..setup.options(scene, &interrupt)
@@ -52,13 +111,7 @@ impl<'a> Launch<'a> {
             permissions: options.permissions.on_tape(tape),
             ..options
         };
-        let builder = Simulator::builder()
-            .options(options)
-            .console(Box::new(output.clone()));
-        let sim = match setup.debug.session()? {
-            Some(session) => builder.debugger(session).build(),
-            None => builder.build(),
-        };
+        let sim = build(Simulator::builder().options(options)).build();
         Ok(Self {
             setup,
             scene,

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::END;
 use super::interrupt::Interrupt;
-use simulator::Simulator;
+use simulator::{RunLimits, RunTotals, SimulationState, Simulator};
 use view::{Viewer, replay_requests};
 
 /// Longest wait for a request before an idle loop iteration.
@@ -70,5 +70,62 @@ impl Live {
             None if !rest.is_zero() => std::thread::sleep(rest),
             None => {}
         }
+    }
+}
+
+/// The loop of a run whose simulation pages of the viewer may pause and resume as long as they like.
+#[derive(Clone)]
+pub(in crate::cli) struct Viewed {
+    limits: RunLimits,
+    /// Iterations that are left; None for a simulation that runs to its end.
+    left: Option<u64>,
+    is_stopping: bool,
+    totals: RunTotals,
+}
+
+impl Viewed {
+    /// A run with these limits, or of so many `iterations`.
+    pub(in crate::cli) fn new(limits: RunLimits, iterations: Option<u64>) -> Self {
+        Self {
+            limits,
+            left: iterations,
+            is_stopping: false,
+            totals: RunTotals::default(),
+        }
+    }
+
+    /// What has been run.
+    pub(in crate::cli) fn totals(&self) -> RunTotals {
+        self.totals
+    }
+
+    /// One iteration; false when the run was over before.
+    pub(in crate::cli) fn iterate(
+        &mut self,
+        sim: &mut Simulator,
+        live: &mut Live,
+        has_interrupt: impl Fn() -> bool,
+    ) -> bool {
+        if sim.quit_requested() {
+            return false;
+        }
+        let wants_end = sim.tape().signal(END, has_interrupt);
+        let is_over = match self.left {
+            Some(left) => left == 0 || wants_end,
+            None => sim.state() == SimulationState::Stopped,
+        };
+        if is_over {
+            return false;
+        }
+        if !self.is_stopping && (wants_end || self.limits.are_reached(sim)) {
+            self.is_stopping = true;
+            sim.request_stop();
+        }
+        let (steps, time) = (sim.steps(), sim.time());
+        live.iterate(sim);
+        self.left = self.left.map(|left| left - 1);
+        self.totals.steps += sim.steps().saturating_sub(steps);
+        self.totals.time += (sim.time() - time).max(0.0);
+        true
     }
 }

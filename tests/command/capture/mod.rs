@@ -2,6 +2,7 @@
 
 #[cfg(unix)]
 mod clients;
+mod moments;
 mod scenes;
 mod tests;
 

@@ -1,5 +1,6 @@
 //! `swanilda debug`, as an editor uses it.
 
+mod back;
 mod client;
 mod more;
 
