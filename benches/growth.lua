@@ -111,7 +111,7 @@ function cases.custom_properties_listed(n)
     end
 end
 
---- Poses in the world are composed from the object upwards, since rounding depends on the order: here each move goes through all above.
+--- Poses in the world are composed from the object upwards, since rounding depends on the order, but only so far.
 function cases.chain_from_the_root(n)
     local members = dummies(n)
     return function()

@@ -133,10 +133,18 @@ impl Scene {
 
     /// (Un)linking below a joint or force sensor ends the deviation the physics had left there.
     fn clear_physics_error(&mut self, handle: Handle) -> SceneResult<()> {
-        match &mut self.object_mut(handle)?.kind {
-            crate::Kind::Joint(joint) => joint.error = None,
-            crate::Kind::ForceSensor(sensor) => sensor.error = None,
-            _ => {}
+        let has_error = match &self.object(handle)?.kind {
+            crate::Kind::Joint(joint) => joint.error.is_some(),
+            crate::Kind::ForceSensor(sensor) => sensor.error.is_some(),
+            _ => false,
+        };
+        // Where there is none, what hangs on the object has not moved.
+        if has_error {
+            match &mut self.object_mut(handle)?.kind {
+                crate::Kind::Joint(joint) => joint.error = None,
+                crate::Kind::ForceSensor(sensor) => sensor.error = None,
+                _ => {}
+            }
         }
         Ok(())
     }

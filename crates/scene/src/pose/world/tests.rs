@@ -4,7 +4,7 @@ use geometry::PrimitiveKind;
 use nalgebra::{UnitQuaternion, Vector3};
 use test_support::random;
 
-use super::bits;
+use super::{STRETCH, bits};
 use crate::joint::{Joint, JointMode, JointType};
 use crate::object::dummy::Dummy;
 use crate::pose::measure::measured;
@@ -256,4 +256,72 @@ fn moving_a_parent_visits_no_child() {
     );
     // The base was checked on the way; the next child need not check it again.
     assert_eq!(checked(&scene, base), scene.objects.moves().last);
+}
+
+/// A chain of objects of random kinds and poses, each of which hangs on the one before.
+fn chain(play: &mut Play, length: usize) -> Vec<Handle> {
+    let mut all: Vec<Handle> = Vec::new();
+    for _ in 0..length {
+        let (kind, pose) = (play.random.kind(), play.random.pose());
+        let new = play.scene.add("o", kind).unwrap();
+        play.scene.set_world_pose(new, pose).unwrap();
+        play.scene
+            .set_parent(new, all.last().copied(), true)
+            .unwrap();
+        all.push(new);
+    }
+    all
+}
+
+fn empty_play() -> Play {
+    Play {
+        scene: Scene::new(),
+        random: Random(random::Random::new(3)),
+    }
+}
+
+#[test]
+fn cached_poses_of_long_chains_equal_recomputed_ones() {
+    let mut play = empty_play();
+    let all = chain(&mut play, 300);
+    for _ in 0..200 {
+        let (moved, pose) = (play.random.of(&all), play.random.pose());
+        let (taken, other) = (play.random.of(&all), play.random.of(&all));
+        play.scene.set_local_pose(moved, pose).unwrap();
+        let old = play.scene.object(taken).unwrap().parent();
+        drop(play.scene.set_parent(taken, Some(other), true));
+        for _ in 0..5 {
+            let read = play.random.of(&all);
+            play.check(read);
+        }
+        drop(play.scene.set_parent(taken, old, false));
+    }
+    all.iter().for_each(|&handle| play.check(handle));
+}
+
+#[test]
+fn poses_are_composed_upwards() {
+    let mut play = empty_play();
+    let all = chain(&mut play, STRETCH as usize + 1);
+    let upwards = |all: &[Handle]| {
+        let mut objects = all.iter().map(|&h| play.scene.object(h).unwrap()).rev();
+        let last = objects.next().unwrap().pose();
+        objects.fold(last, |pose, object| {
+            let pose = object.intrinsic_pose().map_or(pose, |own| own * pose);
+            object.pose() * pose
+        })
+    };
+    for length in [2, 3, 20, all.len()] {
+        let read = play.scene.world_pose(all[length - 1]).unwrap();
+        assert_eq!(bits(&read), bits(&upwards(&all[..length])), "{length}");
+    }
+}
+
+#[test]
+fn a_chain_is_built_without_visiting_all_of_it_each_time() {
+    let mut play = empty_play();
+    let all = chain(&mut play, 200);
+    let place = |at: usize| &play.scene.object(all[at]).unwrap().place;
+    assert!(place(0).checked.get() < place(10).checked.get());
+    assert!(place(10).checked.get() < place(190).checked.get());
 }
