@@ -160,14 +160,22 @@ impl Sim {
         }
     }
 
-    /// Ends an add-on or the sandbox at application exit.
+    /// The end of the application: add-ons and the sandbox are notified that the objects go, and clean up.
     pub fn end_detached(self: &Rc<Self>) {
-        for script in self.active_scripts().iter() {
-            if matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox)
-                && script.base_state() == state::INITIALIZED
-            {
-                self.end(script);
+        let active = self.active_scripts();
+        let ending = || {
+            active.iter().filter(|script| {
+                matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox)
+                    && script.base_state() == state::INITIALIZED
+            })
+        };
+        self.remove_scene_at_exit(|call, args| {
+            for script in ending() {
+                self.deliver(script, call, args);
             }
+        });
+        for script in ending() {
+            self.end(script);
         }
     }
 }

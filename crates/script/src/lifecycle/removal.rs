@@ -94,6 +94,22 @@ impl Sim {
         Ok(())
     }
 
+    /// Removes all objects at the end of the application, if a script has one of the callbacks about that. `notify` calls those that live
+    /// that long. Scripts of the objects end without their cleanup.
+    pub(crate) fn remove_scene_at_exit(self: &Rc<Self>, notify: impl Fn(SysCall, &[Data])) {
+        let all = self.scene.borrow().all_breadth_first();
+        let data = self.data_for([SysCall::BeforeDelete, SysCall::AfterDelete], || {
+            self.removal_data(&all)
+        });
+        if let Some(data) = data.filter(|_| !all.is_empty()) {
+            let data = [data];
+            notify(SysCall::BeforeDelete, &data);
+            // The handles were just read, so none is unknown.
+            let _ = self.remove_from_scene(all);
+            notify(SysCall::AfterDelete, &data);
+        }
+    }
+
     /// The argument of two callbacks, before and after something, if a script has one of them. Where none has, none can come to have one in
     /// between: only callbacks run then.
     fn data_for(&self, calls: [SysCall; 2], data: impl FnOnce() -> Data) -> Option<Data> {
