@@ -54,16 +54,17 @@ pub(super) fn text() -> String {
     for (part, title) in PARTS {
         let _ = write!(
             out,
-            "\n## {title}\n\n| name | type | access | state |\n|---|---|---|---|\n"
+            "\n## {title}\n\n| name | type | access | state | what it is |\n|---|---|---|---|---|\n"
         );
         for line in lines.iter().filter(|line| line.part == part) {
             let _ = writeln!(
                 out,
-                "| `{}` | {} | {} | {} |",
+                "| `{}` | {} | {} | {} | {} |",
                 line.name,
                 line.ty.word(),
                 access(line.flags),
-                line.state
+                line.state,
+                line.description
             );
         }
     }
@@ -73,13 +74,18 @@ pub(super) fn text() -> String {
 /// Names of the version after 4.10 that are known here too.
 fn later() -> String {
     let mut out = String::from(
-        "\n## Names of CoppeliaSim 4.11\n\nThe version after 4.10 has other names for some properties. Where the value is the same, both names are read and written; \
+        "\n## Names of CoppeliaSim 4.11\n\nThe version after 4.10 has other names for some properties. Both names are read and written; a value marked with *not* is true where the older one is false; \
          lists and events use the older one. Parameters of physics engines have `dynamics.` in front there (`dynamics.ode.bounce`). Handles are integers: \
          `sim.getHandleProperty` and `sim.getHandleArrayProperty` read the same values as `sim.getIntProperty` and `sim.getIntArrayProperty`. \
          `sim.getMatrixProperty` reads `vertices`, `normals`, `points`, `depth` and `inertiaMatrix`. Groups, lists of texts and properties without a counterpart in 4.10 are unknown.\n\n| of | name in 4.10 | name in 4.11 |\n|---|---|---|\n",
     );
-    for (class, name, later) in later_names() {
-        let _ = writeln!(out, "| {class} | `{name}` | `{later}` |");
+    for name in later_names() {
+        let not = if name.is_opposite { "*not* " } else { "" };
+        let _ = writeln!(
+            out,
+            "| {} | {not}`{}` | `{}` |",
+            name.class, name.name, name.later
+        );
     }
     out
 }

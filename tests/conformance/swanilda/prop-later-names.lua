@@ -42,8 +42,15 @@ print('parent', sim.getHandleProperty(dummy, 'parent') == shape, sim.getIntPrope
 print('objects', #sim.getHandleArrayProperty(sim.handle_scene, 'objects') == #sim.getIntArrayProperty(sim.handle_scene, 'objectHandles'))
 print('info', sim.getPropertyInfo(joint, 'targetPosition') == sim.getPropertyInfo(joint, 'targetPos'), sim.getProperty(joint, 'targetPosition'))
 print('path', sim.getStringProperty(sim.handle_app, 'paths.temp') == sim.getStringProperty(sim.handle_app, 'tempPath'))
--- The opposite sense is no other name.
-print(pcall(sim.getBoolProperty, sim.createScript(sim.scripttype_customization, ''), 'enabled'))
+-- True under the one name where it is false under the other.
+local script = sim.createScript(sim.scripttype_customization, '')
+both('Bool', script, 'scriptDisabled', 'enabled', true, true)
+both('Bool', script, 'scriptDisabled', 'enabled', false, false)
+print('type', sim.getPropertyInfo(script, 'enabled') == sim.propertytype_bool, pcall(sim.setIntProperty, script, 'enabled', 1))
+print('removed', pcall(sim.removeProperty, script, 'enabled'))
+for i = 0, 200 do
+    if sim.getPropertyName(script, i) == 'enabled' then print('listed') end
+end
 for i = 0, 200 do
     local name = sim.getPropertyName(joint, i)
     if name == 'targetPosition' or name == 'dynamics.ode.bounce' then print('listed', name) end

@@ -189,9 +189,10 @@ fn get_property_info(
     #[default(Options::default())] _options: Options,
 ) -> Result<Option<(i64, i64, &'static str)>> {
     let target = cx.property_target(target)?;
+    let name = property_name.as_str();
     Ok(cx
-        .property_info(&target, property_name.as_str())
-        .map(|(ty, flags)| (ty as i64, flags, "")))
+        .property_info(&target, name)
+        .map(|(ty, flags)| (ty as i64, flags, cx.property_description(&target, name))))
 }
 
 /// The properties of a target one by one; nothing past the last one.

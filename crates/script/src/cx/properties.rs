@@ -57,6 +57,11 @@ impl Cx<'_> {
         self.sim.property_info(target, name)
     }
 
+    /// What a property is, in a sentence; empty for those that scripts make.
+    pub fn property_description(&self, target: &PropertyTarget, name: &str) -> &'static str {
+        self.sim.property_description(target, name)
+    }
+
     /// The property at `index` in the order of enumeration, with its class; None past the end.
     pub fn property_name(
         &self,

@@ -57,12 +57,29 @@ pub(crate) fn renamed(class: &'static str, name: &'static str) -> (&'static str,
         .unwrap_or((name, Meaning::Same))
 }
 
-/// Class, name, and name in the version after 4.10, of each property that has its value under another name there.
-pub fn later_names() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+/// A property that has another name in the version after 4.10.
+pub struct LaterName {
+    /// The class of its target, without those above.
+    pub class: &'static str,
+    /// Its name in 4.10.
+    pub name: &'static str,
+    /// Its name in the later version.
+    pub later: &'static str,
+    /// Whether true there is false here.
+    pub is_opposite: bool,
+}
+
+/// The properties that have another name in the version after 4.10.
+pub fn later_names() -> impl Iterator<Item = LaterName> {
     RENAMED.lines().filter_map(|line| {
         let mut fields = line.split('\t');
-        let row = (fields.next()?, fields.next()?, fields.next()?);
-        (fields.next() != Some("not") && row.1 != row.2).then_some(row)
+        let (class, name, later) = (fields.next()?, fields.next()?, fields.next()?);
+        (name != later).then_some(LaterName {
+            class,
+            name,
+            later,
+            is_opposite: fields.next() == Some("not"),
+        })
     })
 }
 

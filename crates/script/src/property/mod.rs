@@ -128,6 +128,7 @@ impl Sim {
             ValueSource::Engine(param) => {
                 Ok(self.scene.borrow().engine_value(param, target.object())?)
             }
+            ValueSource::Opposite(of) => Ok((!self.read_row(target, of)?.truthy()).into()),
         }
     }
 
@@ -175,6 +176,7 @@ impl Sim {
                     .set_engine_value(param, target.object(), value);
                 set.map_err(|_| ApiError::PropertyNotWritable)
             }
+            ValueSource::Opposite(of) => self.write_row(target, of, (!value.truthy()).into()),
         }
     }
 
@@ -238,6 +240,17 @@ impl Sim {
                 flags
             },
         ))
+    }
+
+    /// What a static property is, in a sentence; empty for others.
+    pub(crate) fn property_description(&self, target: &PropertyTarget, name: &str) -> &'static str {
+        let Ok(class) = self.class_of(target) else {
+            return "";
+        };
+        match parse_name(class, target, name) {
+            Name::Static(name) => class.find(name).map_or("", |row| row.description),
+            Name::Stored(..) | Name::Param(_) => "",
+        }
     }
 
     /// The property at `index` in the order of enumeration, with its class; None past the end. Static ones count only if they begin

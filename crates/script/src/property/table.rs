@@ -2,18 +2,22 @@
 //! one.
 
 mod accessors;
+mod descriptions;
 mod lines;
+#[cfg(test)]
+mod tests;
 
 use heap::Lazy;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::access::Accessor;
-pub use crate::event_stream::protocol::later_names;
+pub use crate::event_stream::protocol::{LaterName, later_names};
 use crate::event_stream::protocol::{Meaning, renamed};
 use ::scene::parameters::engine::{EngineParam, engine_params};
 use ::scene::{Data, Kind, ValueType};
 use accessors::accessors;
+use descriptions::description;
 use lines::{ENGINE_PARTS, lines};
 pub use lines::{Line, described};
 
@@ -46,6 +50,8 @@ pub struct Row {
     pub source: ValueSource,
     /// The class as returned by `sim.getPropertyName`.
     pub class: &'static str,
+    /// What it is, in a sentence.
+    pub description: &'static str,
 }
 
 /// The source of the value of a property.
@@ -59,6 +65,8 @@ pub enum ValueSource {
     Constant(Data),
     /// A parameter of a physics engine.
     Engine(&'static EngineParam),
+    /// True where another property is false.
+    Opposite(Box<Row>),
 }
 
 /// Targets that have the same static properties.
@@ -69,6 +77,8 @@ pub struct Class {
     outer: &'static [&'static str],
     /// In the order of enumeration.
     rows: Vec<Row>,
+    /// Properties of the version after 4.10 that are the opposite of a row. They are in no list.
+    opposites: Vec<Row>,
     /// How many rows come before custom data and signals.
     common: usize,
     by_name: ByName,
@@ -77,7 +87,10 @@ pub struct Class {
 impl Class {
     /// The row with that name, or with that name in the version after 4.10; without class in front.
     pub(crate) fn find(&self, name: &str) -> Option<&Row> {
-        self.by_name.get(name).map(|&at| &self.rows[at])
+        match self.by_name.get(name) {
+            Some(&at) => Some(&self.rows[at]),
+            None => self.opposites.iter().find(|row| row.name == name),
+        }
     }
 
     /// The rows that come before custom data and signals, and those that come after.
@@ -247,24 +260,34 @@ fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Clas
         .enumerate()
         .map(|(at, row)| (row.name, at))
         .collect();
+    let mut opposites = Vec::new();
     for (at, row) in rows.iter().enumerate() {
-        if let Some(name) = later_name(row.class, row.name) {
-            by_name.entry(name).or_insert(at);
+        match renamed(row.class, row.name) {
+            (later, Meaning::Not) => opposites.push(opposite(later, row)),
+            (later, _) if later != row.name => {
+                by_name.entry(later).or_insert(at);
+            }
+            _ => {}
         }
     }
     Class {
         word,
         outer,
         rows,
+        opposites,
         common,
         by_name,
     }
 }
 
-/// Under which other name scripts of the version after 4.10 know a property whose value is the same there.
-fn later_name(class: &'static str, name: &'static str) -> Option<&'static str> {
-    let (later, meaning) = renamed(class, name);
-    (later != name && meaning != Meaning::Not).then_some(later)
+/// The property that is true where `row` is false.
+fn opposite(name: &'static str, row: &Row) -> Row {
+    Row {
+        name,
+        description: "True where its older name is false, and the reverse.",
+        source: ValueSource::Opposite(Box::new(row.clone())),
+        ..row.clone()
+    }
 }
 
 type Parts = HashMap<&'static str, Vec<Row>>;
@@ -280,6 +303,7 @@ fn parts() -> Parts {
             flags,
             state,
             default,
+            description,
         } = line;
         let is_other_word = state == "works" && !default.is_empty();
         let value = || {
@@ -301,104 +325,26 @@ fn parts() -> Parts {
             flags,
             source,
             class: "",
+            description,
         });
     }
     for (part, owner) in ENGINE_PARTS {
         parts.entry(part).or_default().extend(
             engine_params(owner)
                 .filter(|param| param.is_property)
-                .map(engine_row),
+                .map(|param| engine_row(part, param)),
         );
     }
     parts
 }
 
-fn engine_row(param: &'static EngineParam) -> Row {
+fn engine_row(part: &str, param: &'static EngineParam) -> Row {
     Row {
         name: param.name,
         ty: param.ty,
         flags: param.flags,
         source: ValueSource::Engine(param),
         class: "",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{ValueSource, accessors, app_class, classes, flags, later_names, lines, parts};
-
-    #[test]
-    fn every_accessor_has_its_row() {
-        let parts = parts();
-        for (part, name) in accessors().keys() {
-            let row = parts[part].iter().find(|row| row.name == *name);
-            assert!(
-                row.is_some_and(|row| matches!(row.source, ValueSource::Works(_))),
-                "{part}: {name}"
-            );
-        }
-    }
-
-    #[test]
-    fn every_line_says_what_becomes_of_it() {
-        assert!(lines().all(|line| ["works", "inert", "constant"].contains(&line.state)));
-    }
-
-    #[test]
-    fn what_works_works_in_every_direction_it_is_said_to() {
-        for (part, row) in parts()
-            .iter()
-            .flat_map(|(part, rows)| rows.iter().map(move |row| (part, row)))
-        {
-            let ValueSource::Works(accessor) = row.source else {
-                continue;
-            };
-            assert!(
-                accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0,
-                "{part}: {} is read",
-                row.name
-            );
-            assert!(
-                accessor.write.is_some() || row.flags & flags::NOT_WRITABLE != 0,
-                "{part}: {} is written",
-                row.name
-            );
-        }
-    }
-
-    #[test]
-    fn later_names_mean_the_same_rows() {
-        let mut found = 0;
-        for (word, name, later) in later_names() {
-            let with_both = classes().iter().filter(|class| {
-                let (before, after) = class.rows();
-                let mut rows = before.iter().chain(after);
-                rows.any(|row| row.name == name && row.class.ends_with(word))
-            });
-            for class in with_both {
-                assert_eq!(class.find(later).map(|row| row.name), Some(name), "{later}");
-                found += 1;
-            }
-        }
-        assert!(found > 90, "{found}");
-        let joint = classes().iter().find(|class| class.word == "joint");
-        let bounce = joint.and_then(|class| class.find("dynamics.ode.bounce"));
-        assert_eq!(bounce.map(|row| row.name), Some("ode.bounce"));
-    }
-
-    #[test]
-    fn rows_are_found_by_name() {
-        for class in classes() {
-            let (before, after) = class.rows();
-            for row in before.iter().chain(after) {
-                assert_eq!(
-                    class.find(row.name).map(|found| found.ty),
-                    Some(row.ty),
-                    "{}",
-                    row.name
-                );
-            }
-        }
-        assert_eq!(app_class().without_words("app.sessionId"), "sessionId");
+        description: description(part, param.name),
     }
 }

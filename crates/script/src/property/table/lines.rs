@@ -1,5 +1,6 @@
 //! The lines of `static.tsv`.
 
+use super::descriptions::description;
 use ::scene::ValueType;
 use ::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
 
@@ -24,6 +25,8 @@ pub struct Line {
     /// `works`, `inert` or `constant`.
     pub state: &'static str,
     pub(super) default: &'static str,
+    /// What it is, in a sentence.
+    pub description: &'static str,
 }
 
 pub(super) fn lines() -> impl Iterator<Item = Line> {
@@ -41,8 +44,18 @@ pub(super) fn lines() -> impl Iterator<Item = Line> {
             flags,
             state,
             default,
+            description: description(part, described_as(name, state, default)),
         }
     })
+}
+
+/// The name under which a property is described: that of the one it is an older word for.
+fn described_as(name: &'static str, state: &str, default: &'static str) -> &'static str {
+    if state == "works" && !default.is_empty() {
+        default
+    } else {
+        name
+    }
 }
 
 /// Every static property for the reference, those of physics engines after the others.
@@ -54,6 +67,7 @@ pub fn described() -> Vec<Line> {
         flags: param.flags,
         state: if param.works { "works" } else { "inert" },
         default: "",
+        description: description(part, param.name),
     };
     let engines = ENGINE_PARTS.into_iter().flat_map(|(part, owner)| {
         engine_params(owner)
