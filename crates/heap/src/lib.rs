@@ -135,6 +135,14 @@ impl Handle {
         })
     }
 
+    /// The heap that a value lies in.
+    pub fn of<T>(value: &T) -> Option<Self> {
+        space::Address::of(std::ptr::from_ref(value).cast()).map(|address| Self {
+            address,
+            _not_send: PhantomData,
+        })
+    }
+
     /// Inside until the result is dropped. The heap must be there still: ask something that lies in it.
     pub fn entered(self) -> Entered {
         Entered::begin(self.address)

@@ -437,6 +437,10 @@ pub const INPUTS: &[(&str, &str)] = &[
     ("crates/view/src/viewer.rs", "requests of pages"),
     ("src/cli/run.rs", "requests to end the program"),
     ("src/cli/session/live.rs", "requests to end the program"),
+    (
+        "src/cli/replay/command_loop.rs",
+        "requests to end the program",
+    ),
     ("src/cli/session/mod.rs", "requests to end the program"),
 ];
 

@@ -226,7 +226,7 @@ impl Sim {
 
     /// What `work` computes in the memory of the simulator, copied out of it: for debuggers.
     pub fn copied_out<T: Clone>(self: &Rc<Self>, work: impl FnOnce(&Rc<Self>) -> T) -> T {
-        heap::outside(|| heap::enter_and_copy(self.heap, || work(self)))
+        heap::outside(|| heap::enter_and_copy(heap::Handle::of(&**self), || work(self)))
     }
 
     /// Does something in the midst of code, and undoes it: the memory of the simulator is what it was before. The tape gives nothing meanwhile.
@@ -234,7 +234,7 @@ impl Sim {
     #[expect(unsafe_code, reason = "memory is brought back")]
     pub fn without_trace<T>(self: &Rc<Self>, work: impl FnOnce() -> T) -> T {
         let tape = self.options.permissions.tape();
-        let moment = self.heap.map(heap::Handle::moment);
+        let moment = heap::Handle::of(&**self).map(heap::Handle::moment);
         tape.suspend(true);
         let result = heap::outside(work);
         tape.suspend(false);
@@ -247,12 +247,12 @@ impl Sim {
 
     /// Ends the code that runs, with errors, so that another moment can be brought back. What comes until then does not count.
     pub fn abandon(&self) {
-        self.is_abandoned.set(true);
+        self.scripts.is_abandoned.set(true);
     }
 
     /// Whether what happens does not count any more.
     pub fn is_abandoned(&self) -> bool {
-        self.is_abandoned.get()
+        self.scripts.is_abandoned.get()
     }
 
     /// All scripts that have been looked up, with names as in the log: objects first, then those that are none.

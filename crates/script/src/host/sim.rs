@@ -1,6 +1,6 @@
 //! One simulator, and the parts it consists of.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -48,10 +48,6 @@ pub struct Sim {
     pub test_bench: OnceCell<Rc<TestBench>>,
     /// Line counts of states that are closed.
     pub line_counts: RefCell<LineCounts>,
-    /// The memory that all this lies in.
-    pub(crate) heap: Option<heap::Handle>,
-    /// A debugger goes to another moment: code that runs is to end.
-    pub(crate) is_abandoned: Cell<bool>,
 }
 
 /// The log, with a hash of its lines where runs are compared.
@@ -97,8 +93,6 @@ impl Sim {
             events: EventStream::new(),
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),
-            heap: heap::Handle::current(),
-            is_abandoned: Cell::new(false),
         })
     }
 

@@ -29,6 +29,8 @@ pub struct ScriptSet {
     pub(crate) languages: Languages,
     /// Who decides where they stop; set before they start.
     pub debugger: OnceCell<Rc<dyn Debugger>>,
+    /// The debugger goes to another moment: code that runs is to end.
+    pub(crate) is_abandoned: Cell<bool>,
     /// The memory all of them share.
     pub(crate) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
@@ -60,6 +62,7 @@ impl ScriptSet {
             languages,
             budget: Rc::new(Budget::new(memory)),
             debugger: OnceCell::new(),
+            is_abandoned: Cell::new(false),
             by_id: RefCell::default(),
             detached: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),

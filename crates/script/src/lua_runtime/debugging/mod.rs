@@ -227,7 +227,7 @@ fn reached(stack: Stack<'_>) -> Outcome {
             },
         };
         sim.notify_debugger(|debugger| debugger.line_reached(&sim, &place));
-        if sim.is_abandoned.get() {
+        if sim.is_abandoned() {
             return Outcome::Raise(ABANDONED.to_owned());
         }
     }
@@ -269,7 +269,7 @@ fn asked(stack: Stack<'_>) -> bool {
         let debugger = sim.scripts.debugger.get()?;
         let script = &stack.env().script;
         let is_to_end = heap::outside(|| debugger.look(&sim, Some(script)));
-        Some(is_to_end || sim.is_abandoned.get())
+        Some(is_to_end || sim.is_abandoned())
     };
     let is_to_end = stack.env().sim.upgrade().and_then(debugger);
     is_to_end.unwrap_or(false)
