@@ -125,19 +125,27 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     if !missing.is_empty() && !interrupt.is_requested() {
         warn_of_unread(&batch, &read);
     }
-    let table = store.finish().map_err(|error| error.to_string())?;
-    let (done, failed) = (store.rows().count(), store.failed());
-    let line = format!(
-        "{done} of {} runs done, {failed} failed: {}\n",
-        runs.len(),
-        table.display()
-    );
-    super::say(line.as_bytes());
+    let line = finished(&store, runs.len())?;
+    super::say((line + "\n").as_bytes());
+    let failed = store.failed();
     Ok(if interrupt.is_requested() {
         INTERRUPTED
     } else {
         u8::from(failed > 0) * FAILED
     })
+}
+
+/// Writes the table; the line that says so.
+///
+/// # Errors
+/// When it cannot be written.
+pub(super) fn finished(store: &Store, runs: usize) -> Result<String, String> {
+    let table = store.finish().map_err(|error| error.to_string())?;
+    let (done, failed) = (store.rows().count(), store.failed());
+    let table = table.display();
+    Ok(format!(
+        "{done} of {runs} runs done, {failed} failed: {table}"
+    ))
 }
 
 /// Names the swept parameters that no run has read: its rows differ by chance only, or not at all.
@@ -173,6 +181,7 @@ impl Args {
             sweeps: self.sweep.clone(),
             fixed: self.define.iter().cloned().collect::<BTreeMap<_, _>>(),
             time: self.time,
+            branch_at: None,
         }
     }
 
@@ -208,7 +217,7 @@ fn seeds(text: &str) -> Result<Seeds, String> {
     list.map(Seeds).map_err(|_| wrong())
 }
 
-fn sweep(text: &str) -> Result<(String, Vec<String>), String> {
+pub(super) fn sweep(text: &str) -> Result<(String, Vec<String>), String> {
     match text.split_once('=') {
         Some((name, values)) if !name.is_empty() => Ok((
             name.to_owned(),

@@ -9,6 +9,7 @@
 mod api;
 mod batch;
 mod batch_ray;
+mod branches;
 mod built;
 mod convert;
 mod debug;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::branches::{self, BranchArgs};
 use super::capture::{CaptureArgs, finish};
 use super::fallen::Fallen;
 use super::graphs::GraphArgs;
@@ -30,7 +31,7 @@ use simulator::{Builder, Options, Run, RunLimits, RunObserver, RunTotals, Script
 use view::Viewer;
 
 /// Exit code when a script raised an error.
-const SCRIPT_ERROR: u8 = 1;
+pub(super) const SCRIPT_ERROR: u8 = 1;
 /// Exit code when a step is another one than in the file of --expect-hash.
 const DIFFERENT: u8 = 3;
 
@@ -38,7 +39,7 @@ const DIFFERENT: u8 = 3;
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack
-    scene: PathBuf,
+    pub(super) scene: PathBuf,
     /// Script type to load the file as
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
     kind: Kind,
@@ -57,6 +58,8 @@ pub(super) struct Args {
     /// Run in a child process, and say in which plugin it has crashed if it does
     #[arg(long)]
     isolate: bool,
+    #[command(flatten)]
+    pub(super) branches: BranchArgs,
     #[command(flatten)]
     video: VideoArgs,
     #[command(flatten)]
@@ -126,15 +129,6 @@ pub(super) fn run(args: &Args) -> Outcome {
         watchdog,
         ..
     } = launch;
-    let hashes = args.hashes.start()?;
-    // A replay writes no files.
-    let recorder = if is_replay {
-        None
-    } else {
-        args.video.start(&mut sim, &args.scene);
-        args.record.start(&sim)?
-    };
-    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     let mut session = Session {
         interrupt: &interrupt,
         progress,
@@ -145,8 +139,19 @@ pub(super) fn run(args: &Args) -> Outcome {
         } else {
             Fallen::default()
         },
-        hashes,
+        hashes: args.hashes.start()?,
     };
+    if args.branches.is_asked_for() {
+        return branches::run(args, sim, session);
+    }
+    // A replay writes no files.
+    let recorder = if is_replay {
+        None
+    } else {
+        args.video.start(&mut sim, &args.scene);
+        args.record.start(&sim)?
+    };
+    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
     let recorded = args.record.finish(&sim, recorder);
@@ -167,7 +172,11 @@ pub(super) fn run(args: &Args) -> Outcome {
 }
 
 /// Ends a run; the number of script errors, and the exit code.
-fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) -> (u64, u8) {
+pub(super) fn end(
+    mut sim: Simulator,
+    written: &Result<(), String>,
+    interrupt: &Interrupt,
+) -> (u64, u8) {
     if sim.tape().signal(END, || interrupt.is_requested()) {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.

@@ -50,6 +50,7 @@ impl Batch {
             sweeps,
             fixed,
             time,
+            branch_at: None,
         };
         Ok(Self {
             runs: batch.runs(),

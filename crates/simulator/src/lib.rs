@@ -402,10 +402,16 @@ impl Simulator {
             .collect()
     }
 
-    /// The names of the parameters that scripts have read.
-    pub fn params_read(&self) -> BTreeSet<String> {
-        let app = self.parts.sim.app.borrow();
-        app.params_read.borrow().clone()
+    /// Sets a named parameter, as `sim.setNamedStringParam` does.
+    pub fn set_named_param(&mut self, name: &str, value: &str) {
+        let sim = self.inside();
+        let mut app = sim.app.borrow_mut();
+        app.named_params.insert(name.into(), value.into());
+    }
+
+    /// The names of the parameters that scripts have read since the last time.
+    pub fn take_params_read(&mut self) -> BTreeSet<String> {
+        self.copied(|sim| sim.app.borrow().params_read.take())
     }
 
     /// The scene, to read. Do not hold it across other calls.

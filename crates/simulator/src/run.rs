@@ -110,6 +110,31 @@ impl Run {
         true
     }
 
+    /// Goes on to that simulated time, seconds; false when the run ends before.
+    pub fn go_to(
+        &mut self,
+        sim: &mut Simulator,
+        time: f64,
+        observer: &mut dyn RunObserver,
+    ) -> bool {
+        let there = RunLimits {
+            time: Some(time),
+            ..RunLimits::default()
+        };
+        while !there.are_reached(sim) || sim.state() == SimulationState::Stopped {
+            if !self.iterate(sim, observer) {
+                return false;
+            }
+        }
+        !self.is_stopping
+    }
+
+    /// Goes on to the end.
+    pub fn finish(mut self, sim: &mut Simulator, observer: &mut dyn RunObserver) -> RunTotals {
+        while self.iterate(sim, observer) {}
+        self.totals
+    }
+
     fn stop_if_due(&mut self, sim: &mut Simulator, observer: &mut dyn RunObserver) {
         self.idle += u64::from(sim.state() == SimulationState::Paused);
         if self.is_stopping || self.limits.are_reached(sim) || observer.should_stop(sim) {
@@ -126,9 +151,7 @@ impl Run {
 impl Simulator {
     /// Starts the simulation and runs it to its end; one more loop iteration follows, as in CoppeliaSim when it is closed.
     pub fn run(&mut self, limits: RunLimits, observer: &mut dyn RunObserver) -> RunTotals {
-        let mut run = Run::begin(self, limits);
-        while run.iterate(self, observer) {}
-        run.totals()
+        Run::begin(self, limits).finish(self, observer)
     }
 
     /// That many loop iterations, in whatever state the scripts bring the simulation into.

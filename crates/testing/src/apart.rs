@@ -68,7 +68,7 @@ pub(super) fn run(
         ..RunReport::default()
     };
     report.params = sim.named_params().into_iter().collect();
-    report.params_read = sim.params_read();
+    report.params_read = sim.take_params_read();
     report.line_counts = sim.take_line_counts();
     drop(sim);
     report.lines = bench.take_lines();

@@ -7,11 +7,12 @@ use simulator::Simulator;
 const LEAN: f64 = std::f64::consts::FRAC_PI_6;
 
 /// Says once when the base of a robot has fallen over. None is watched where there is nothing to say.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::cli) struct Fallen {
     bases: Vec<Base>,
 }
 
+#[derive(Clone)]
 struct Base {
     handle: Handle,
     /// Where it is when it stands.

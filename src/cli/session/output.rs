@@ -1,6 +1,7 @@
 //! Output of a run: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::net::SocketAddr;
@@ -15,6 +16,7 @@ use super::interrupt::Interrupt;
 use io::signals::{reserve_standard_output, standard_output_is_closed};
 use script::log::{status, verbosity};
 use simulator::{Console, LogLine, RunTotals};
+use testing::batch::{Row, Run};
 
 /// Output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +38,8 @@ pub(in crate::cli) struct Output {
     bar: ProgressBar,
     /// State since the last error of a script.
     aftermath: Rc<Cell<Aftermath>>,
+    /// The first error of a script since it was last taken.
+    error: Rc<RefCell<Option<String>>>,
     /// Requested when nobody reads standard output any more.
     interrupt: Interrupt,
     /// Standard output, where nothing but lines of ours may be.
@@ -69,9 +73,15 @@ impl Output {
             quiet,
             bar,
             aftermath: Rc::new(Cell::new(Aftermath::None)),
+            error: Rc::default(),
             interrupt,
             reserved,
         }
+    }
+
+    /// The first error of a script since the last time.
+    pub(in crate::cli) fn take_error(&self) -> Option<String> {
+        self.error.take()
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
@@ -167,6 +177,37 @@ impl Output {
             Format::Json => self.write_json(
                 &json!({ "type": "hash", "step": step, "hash": format!("{hash:016x}") }),
             ),
+        }
+    }
+
+    /// A future of a run begins.
+    pub(in crate::cli) fn branch(&self, run: &Run, runs: usize, time: f64) {
+        let Run { number, params, .. } = run;
+        if self.format == Format::Json {
+            let params: BTreeMap<_, _> = params.iter().cloned().collect();
+            let value = json!({ "type": "branch", "run": number, "params": params, "time": time });
+            return self.write_json(&value);
+        }
+        let values = params.iter().map(|(name, value)| format!("{name}={value}"));
+        let values = values.collect::<Vec<_>>().join(", ");
+        self.note(&format!("Branch {number} of {runs}: {values}"), time);
+    }
+
+    /// What came of a future of a run.
+    pub(in crate::cli) fn row(&self, row: &Row) {
+        if self.format == Format::Json {
+            let mut value = row.value();
+            value["type"] = "row".into();
+            self.write_json(&value);
+        }
+    }
+
+    /// Says where the table of results is.
+    pub(in crate::cli) fn table(&self, line: &str) {
+        if self.format == Format::Json {
+            self.write_json(&json!({ "type": "table", "text": line }));
+        } else {
+            self.write_line(line.as_bytes());
         }
     }
 
@@ -269,6 +310,10 @@ impl Console for Output {
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
+        if !line.status && verbosity::plain(line.level) == verbosity::SCRIPT_ERRORS {
+            let text = || line.located.unwrap_or(line.text).to_owned();
+            self.error.borrow_mut().get_or_insert_with(text);
+        }
         self.write_log(line);
     }
 

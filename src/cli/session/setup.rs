@@ -36,7 +36,7 @@ pub(in crate::cli) struct Setup {
     realtime: bool,
     /// Seed for the scripts' random numbers
     #[arg(long)]
-    seed: Option<u32>,
+    pub seed: Option<u32>,
     /// Lua instructions per millisecond of a thread's time slice
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     instructions_per_ms: Option<u64>,
@@ -48,7 +48,7 @@ pub(in crate::cli) struct Setup {
     memory: Option<u32>,
     /// Named parameter for scripts (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
-    define: Vec<(String, String)>,
+    pub define: Vec<(String, String)>,
     /// Folder for persistent data of scripts [default: the user's data folder]
     #[arg(long, value_name = "FOLDER")]
     data_dir: Option<PathBuf>,

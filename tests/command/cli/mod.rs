@@ -4,6 +4,7 @@
     reason = "every wait of a test is bounded by the clock"
 )]
 
+mod branches;
 mod cache;
 mod commands;
 #[cfg(target_os = "linux")]

@@ -17,6 +17,9 @@ use super::Config;
 use super::case::{Outcome, Status, TestCase};
 use super::workers::{Message, Task, work};
 
+/// Named parameters that begin so are results.
+const RESULT: &str = "result.";
+
 /// A batch of runs.
 #[derive(Debug, Clone)]
 pub struct Batch {
@@ -30,6 +33,8 @@ pub struct Batch {
     pub fixed: BTreeMap<String, String>,
     /// Simulated seconds after which a run is asked to end.
     pub time: Option<f64>,
+    /// Simulated seconds up to which all runs are the same one.
+    pub branch_at: Option<f64>,
 }
 
 /// One run of a batch.
@@ -119,6 +124,15 @@ pub fn run(
     Ok(())
 }
 
+/// The results among the named parameters at the end of a run, by their names without `result.`.
+pub fn results(params: impl IntoIterator<Item = (String, String)>) -> BTreeMap<String, String> {
+    let result = |(name, value): (String, String)| {
+        let name = name.strip_prefix(RESULT)?.to_owned();
+        Some((name, value))
+    };
+    params.into_iter().filter_map(result).collect()
+}
+
 fn case(batch: &Batch, run: &Run) -> TestCase {
     let name = run
         .params
@@ -168,6 +182,7 @@ mod tests {
             sweeps: vec![sweep("kp", &["1", "2"]), sweep("kd", &["x", "y", "z"])],
             fixed: Default::default(),
             time: None,
+            branch_at: None,
         };
         let runs = batch.runs();
         assert_eq!(runs.len(), 12);

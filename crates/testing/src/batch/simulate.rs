@@ -14,9 +14,6 @@ use scene::object::script_object::ScriptType;
 use script::test_bench::{RunReport, RunRequest};
 use simulator::{Limits, Options};
 
-/// Named parameters that begin so are results.
-const RESULT: &str = "result.";
-
 /// A scene that has been read.
 #[derive(Debug)]
 pub(in super::super) struct Scene {
@@ -96,10 +93,7 @@ impl Job {
 fn conclude(outcome: &mut Outcome, report: RunReport) {
     (outcome.steps, outcome.time, outcome.console) = (report.steps, report.time, report.lines);
     outcome.params_read = report.params_read;
-    let results = report.params.into_iter();
-    outcome.results = results
-        .filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value)))
-        .collect();
+    outcome.results = super::results(report.params);
     if report.errors > 0 {
         let error = outcome.console.iter().find(|line| line.level == "error");
         outcome.message = error.map_or_else(

@@ -78,6 +78,30 @@ impl Store {
         })
     }
 
+    /// Whether a folder can become that of a batch.
+    ///
+    /// # Errors
+    /// When it holds another batch, or the scene cannot be read.
+    pub fn check(folder: &Path, batch: &Batch) -> Result<(), StoreError> {
+        let description = describe(batch).map_err(StoreError::Scene)?;
+        let found = fs::read_to_string(folder.join("batch.json")).ok();
+        let is_other = |text: &String| is_whole(text) && *text != description;
+        if found.as_ref().is_some_and(is_other) {
+            return Err(StoreError::Other(folder.to_owned()));
+        }
+        Ok(())
+    }
+
+    /// Forgets the rows that were there.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn clear(&mut self) -> Result<(), StoreError> {
+        self.rows.clear();
+        let cut = self.log.set_len(0);
+        cut.map_err(|error| StoreError::Io(self.folder.clone(), error))
+    }
+
     /// The runs that are not done yet.
     pub fn missing(&self, runs: &[Run]) -> Vec<Run> {
         runs.iter()
@@ -187,10 +211,13 @@ fn describe(batch: &Batch) -> Result<String, String> {
         .map(|(name, values)| json!([name, values]))
         .collect();
     let scene = SceneInput::read(&batch.scene, &Permissions::all())?.bytes();
-    let description = json!({
+    let mut description = json!({
         "scene": batch.scene.display().to_string(), "checksum": format!("{:016x}", checksum(&scene)), "seeds": batch.seeds,
         "sweeps": sweeps, "fixed": batch.fixed, "time": batch.time, "version": env!("CARGO_PKG_VERSION"),
     });
+    if let Some(time) = batch.branch_at {
+        description["branchAt"] = time.into();
+    }
     Ok(format!("{description:#}\n"))
 }
 
@@ -211,9 +238,18 @@ impl Row {
     pub fn line(&self) -> String {
         line(self)
     }
+
+    /// The row as JSON.
+    pub fn value(&self) -> Value {
+        value(self)
+    }
 }
 
 fn line(row: &Row) -> String {
+    value(row).to_string()
+}
+
+fn value(row: &Row) -> Value {
     let params: Map<String, Value> = row
         .run
         .params
@@ -229,7 +265,6 @@ fn line(row: &Row) -> String {
         "run": row.run.number, "seed": row.run.seed, "params": params, "error": row.error, "steps": row.steps,
         "time": seconds(row.time), "results": results,
     })
-    .to_string()
 }
 
 /// A number where the text is one that is written so.
