@@ -36,6 +36,13 @@ impl<T> Contained<T> {
         self.heap.as_ref().map(Heap::entered)
     }
 
+    /// The end of the value begins: no snapshot of it is brought back any more.
+    pub fn end(&self) {
+        if let Some(heap) = &self.heap {
+            heap.end();
+        }
+    }
+
     /// What `work` makes of the value inside, copied out.
     pub fn copied<R: Clone>(&self, work: impl FnOnce(&T) -> R) -> R {
         match &self.heap {
@@ -55,6 +62,7 @@ impl<T> Deref for Contained<T> {
 
 impl<T> Drop for Contained<T> {
     fn drop(&mut self) {
+        self.end();
         let _entered = self.entered();
         // SAFETY: nobody uses the value after this.
         unsafe { ManuallyDrop::drop(&mut self.value) };

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::marker::PhantomData;
 use std::ptr::null_mut;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::region::Region;
 use super::space::Address;
@@ -27,17 +28,26 @@ pub(super) fn heap() -> Option<Address> {
 #[derive(Debug)]
 pub struct Entered {
     before: *mut Region,
+    /// How many calls of the owner are inside of the heap, this one among them.
+    calls: Option<&'static AtomicUsize>,
     _this_thread: PhantomData<*const ()>,
 }
 
 impl Entered {
+    /// By the thread that owns the heap.
     pub(super) fn begin(heap: Address) -> Self {
-        Self::switch(heap.general())
+        let calls = heap.calls();
+        // Of one thread only.
+        calls.store(calls.load(Ordering::Relaxed) + 1, Ordering::Relaxed);
+        let mut entered = Self::switch(heap.general());
+        entered.calls = Some(calls);
+        entered
     }
 
     pub(super) fn switch(region: *mut Region) -> Self {
         Self {
             before: CURRENT.replace(region),
+            calls: None,
             _this_thread: PhantomData,
         }
     }
@@ -46,6 +56,9 @@ impl Entered {
 impl Drop for Entered {
     fn drop(&mut self) {
         CURRENT.set(self.before);
+        if let Some(calls) = self.calls {
+            calls.store(calls.load(Ordering::Relaxed) - 1, Ordering::Relaxed);
+        }
     }
 }
 

@@ -12,8 +12,8 @@
 //! - Values that leave a simulator are copied ([`Heap::enter_and_copy`]).
 //! - Threads, sockets and files are no memory: a [`resource::Resource`] names each, and there is no snapshot while one is open.
 //!
-//! Two rules make mistakes harmless where they can be: while a heap has snapshots, code inside frees nothing outside, and code
-//! outside frees nothing inside. [`on_crossing`] reports both, which is how tests find them.
+//! Two rules make mistakes harmless where they can be: while a heap has snapshots, code inside frees nothing outside (nor drops what an
+//! [`Outer`] holds), and code outside frees nothing inside. [`on_crossing`] reports both, which is how tests find them.
 
 #![expect(unsafe_code, reason = "an allocator")]
 
@@ -79,6 +79,7 @@ impl Heap {
             return None;
         }
         let slot = Slot::take()?;
+        slot.address().set_ending(false);
         for region in slot.regions() {
             // SAFETY: the slot is new, so its regions are nobody else's memory.
             unsafe { Region::establish(region) }?;
@@ -113,6 +114,11 @@ impl Heap {
             address: self.slot.address(),
             _not_send: PhantomData,
         }
+    }
+
+    /// The end begins: no snapshot is brought back any more.
+    pub fn end(&self) {
+        self.slot.address().set_ending(true);
     }
 
     /// Bytes in use, and blocks.
@@ -159,7 +165,7 @@ impl Handle {
 impl SharedHandle {
     /// Inside until the result is dropped, with other threads at the same time. The thread that owns the heap waits for this one.
     pub fn entered(self) -> Entered {
-        Entered::begin(self.0)
+        Entered::switch(self.0.general())
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::mem::ManuallyDrop;
 
-use super::outside;
+use super::space::Address;
+use super::{current, outside};
 
-/// A value that lies outside wherever it is held: it is used and dropped there.
+/// A value that lies outside wherever it is held: it is used and dropped there. Where snapshots may bring back its holder, it stays.
 #[derive(Debug)]
 pub struct Outer<T>(ManuallyDrop<T>);
 
@@ -32,6 +33,9 @@ impl<T> Outer<T> {
 
 impl<T> Drop for Outer<T> {
     fn drop(&mut self) {
+        if current::heap().is_some_and(Address::has_snapshots) {
+            return;
+        }
         // SAFETY: nobody uses the value after this.
         outside(|| unsafe { ManuallyDrop::drop(&mut self.0) });
     }

@@ -7,7 +7,7 @@ use super::image::Image;
 use super::region::Region;
 use super::resource::open_in;
 use super::space::Address;
-use super::{Handle, Heap, current, outside};
+use super::{Handle, Heap, outside};
 
 /// All that a heap held at a moment. Unchanged pages are shared with other snapshots of the heap.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub enum RestoreError {
     Open(Vec<String>),
     /// The snapshot is of another heap.
     OtherHeap,
-    /// The thread is inside the heap.
+    /// A call is inside of the heap, or waits for what it has called outside.
     Inside,
 }
 
@@ -49,7 +49,7 @@ impl Heap {
     /// Copies what the heap holds.
     ///
     /// # Errors
-    /// When something is open that is no memory, or this thread is inside.
+    /// When something is open that is no memory, or a call is inside.
     pub fn snapshot(&self) -> Result<Snapshot, RestoreError> {
         self.check()?;
         let last = self.last.borrow().clone();
@@ -75,7 +75,7 @@ impl Heap {
     /// Brings back what the heap held: everything that came after is gone, without its destructors.
     ///
     /// # Errors
-    /// When something is open that is no memory, this thread is inside, or the snapshot is of another heap.
+    /// When something is open that is no memory, a call is inside, or the snapshot is of another heap.
     ///
     /// # Safety
     /// Nothing outside refers to memory that the heap got after the snapshot, and nothing that the heap held then and that lies outside is gone.
@@ -97,7 +97,8 @@ impl Heap {
         if !open.is_empty() {
             return Err(RestoreError::Open(open));
         }
-        (current::heap() != Some(self.slot.address()))
+        let calls = self.slot.address().calls();
+        (calls.load(Ordering::Relaxed) == 0)
             .then_some(())
             .ok_or(RestoreError::Inside)
     }

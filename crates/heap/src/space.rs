@@ -1,7 +1,7 @@
 //! The addresses of heaps: slots of equal size at fixed places, the lowest free one first.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::region::Region;
 
@@ -17,6 +17,10 @@ const END: usize = BASE + SLOT_COUNT * SLOT_LEN;
 static TAKEN: Mutex<[bool; SLOT_COUNT]> = Mutex::new([false; SLOT_COUNT]);
 /// How many snapshots there are of each, of heaps that are gone as well.
 static SNAPSHOTS: [AtomicUsize; SLOT_COUNT] = [const { AtomicUsize::new(0) }; SLOT_COUNT];
+/// How many calls of its owner are inside of each, or outside on their way back.
+static CALLS: [AtomicUsize; SLOT_COUNT] = [const { AtomicUsize::new(0) }; SLOT_COUNT];
+/// Which heaps come to their end: no snapshot is brought back any more.
+static ENDING: [AtomicBool; SLOT_COUNT] = [const { AtomicBool::new(false) }; SLOT_COUNT];
 
 /// Where a heap lies: two regions, one for scripts' languages and one for all else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,8 +59,19 @@ impl Address {
         &SNAPSHOTS[self.index()]
     }
 
+    /// Whether the heap may become again what it was.
     pub(super) fn has_snapshots(self) -> bool {
         self.snapshots().load(Ordering::Relaxed) != 0
+            && !ENDING[self.index()].load(Ordering::Relaxed)
+    }
+
+    /// Counts the calls that are inside.
+    pub(super) fn calls(self) -> &'static AtomicUsize {
+        &CALLS[self.index()]
+    }
+
+    pub(super) fn set_ending(self, is_ending: bool) {
+        ENDING[self.index()].store(is_ending, Ordering::Relaxed);
     }
 }
 

@@ -1,11 +1,11 @@
 //! Heaps: what comes back, whose memory a block is, what is refused.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::resource::Resource;
-use super::{Allocator, Heap, RestoreError, in_scripts, outside};
+use super::{Allocator, Heap, Outer, RestoreError, in_scripts, outside};
 
 #[global_allocator]
 static ALLOCATOR: Allocator = Allocator;
@@ -164,7 +164,42 @@ fn what_is_open_is_named() {
     // SAFETY: it is refused.
     let refused = unsafe { other.restore(&snapshot) };
     assert_eq!(refused, Err(RestoreError::OtherHeap));
-    assert!(heap.enter(|| heap.snapshot().is_err()));
+}
+
+#[test]
+fn nothing_is_brought_back_below_a_call() {
+    let heap = heap();
+    let snapshot = heap.snapshot().expect("nothing is open");
+    // SAFETY: it is refused.
+    let restored = || unsafe { heap.restore(&snapshot) };
+    assert_eq!(heap.enter(restored), Err(RestoreError::Inside));
+    // What the call has called would return into memory that is another.
+    assert_eq!(heap.enter(|| outside(restored)), Err(RestoreError::Inside));
+    let taken = heap.enter(|| outside(|| heap.snapshot().err()));
+    assert_eq!(taken, Some(RestoreError::Inside));
+    let handle = heap.handle();
+    let entered = (handle.entered(), heap.entered());
+    drop(entered.0);
+    assert_eq!(restored(), Err(RestoreError::Inside));
+    drop(entered.1);
+    assert_eq!(restored(), Ok(()));
+}
+
+#[test]
+fn values_of_the_program_outlive_what_can_be_brought_back() {
+    let value = Rc::new(String::from("the program's"));
+    let heap = heap();
+    let held = heap.enter(|| Rc::new(Cell::new(Some(Outer::new(outside(|| Rc::clone(&value)))))));
+    let snapshot = heap.snapshot().expect("nothing is open");
+    heap.enter(|| drop(held.take()));
+    // SAFETY: nothing outside refers to what came after.
+    unsafe { heap.restore(&snapshot) }.expect("nothing is open");
+    let outer = held.take().expect("it is back");
+    assert_eq!(outer.with(|value| value.len()), 13);
+    assert_eq!(Rc::strong_count(&value), 2);
+    heap.end();
+    heap.enter(|| drop((outer, held)));
+    assert_eq!(Rc::strong_count(&value), 1, "no snapshot keeps it now");
 }
 
 #[test]

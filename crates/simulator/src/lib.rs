@@ -447,6 +447,7 @@ impl Simulator {
 impl Drop for Simulator {
     /// The end of the application: add-ons and the sandbox clean up.
     fn drop(&mut self) {
+        self.parts.end();
         let sim = self.inside();
         sim.end_detached();
         sim.end_video_of_scripts();

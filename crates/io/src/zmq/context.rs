@@ -6,6 +6,9 @@ use std::time::Duration;
 
 use zmq_sys as ffi;
 
+use heap::resource::Resource;
+use heap::{Outer, outside};
+
 use super::libzmq::{RawContext, RawSocket};
 use super::{Errno, ZmqResult};
 
@@ -21,6 +24,8 @@ const TIMEOUT: Duration = Duration::from_secs(2);
 pub struct Context {
     /// None only while it is dropped.
     raw: Option<RawContext>,
+    /// None for one that lasts.
+    _resource: Option<Resource>,
 }
 
 impl Context {
@@ -29,6 +34,18 @@ impl Context {
     pub fn new() -> ZmqResult<Self> {
         Ok(Self {
             raw: Some(RawContext::new()?),
+            _resource: Some(Resource::new(|| "a ZeroMQ context".to_owned())),
+        })
+    }
+
+    /// One that ends with the simulator, so that snapshots may have it.
+    ///
+    /// # Errors
+    /// When there are too many of them.
+    pub fn lasting() -> ZmqResult<Self> {
+        Ok(Self {
+            raw: Some(RawContext::new()?),
+            _resource: None,
         })
     }
 
@@ -82,32 +99,37 @@ impl Drop for Context {
     }
 }
 
-/// A termination in progress.
+/// A termination in progress. Its thread may outlive what the memory of a simulator is now.
 pub struct Termination {
-    done: Receiver<()>,
+    done: Outer<Receiver<()>>,
 }
 
 impl Termination {
     /// On a separate thread, so that callers need not wait until all messages are sent.
     fn start(context: Option<RawContext>) -> Self {
-        let (sender, done) = mpsc::channel();
-        let thread = std::thread::Builder::new()
-            .name("zmq end".into())
-            .spawn(move || {
-                if let Some(context) = context {
-                    context.terminate();
-                }
-                // The caller may have stopped waiting for the result.
-                let _ = sender.send(());
-            });
-        // Without a thread the context stays: its sockets are closed all the same.
-        drop(thread);
-        Self { done }
+        let (sender, done) = outside(mpsc::channel);
+        outside(|| {
+            let thread = std::thread::Builder::new()
+                .name("zmq end".into())
+                .spawn(move || {
+                    if let Some(context) = context {
+                        context.terminate();
+                    }
+                    // The caller may have stopped waiting for the result.
+                    let _ = sender.send(());
+                });
+            // Without a thread the context stays: its sockets are closed all the same.
+            drop(thread);
+        });
+        Self {
+            done: Outer::new(done),
+        }
     }
 
     /// Waits for the end, at most so long; returns whether it was reached.
     pub fn wait(&self, timeout: Duration) -> bool {
-        self.done.recv_timeout(timeout) != Err(mpsc::RecvTimeoutError::Timeout)
+        let end = self.done.with(|done| done.recv_timeout(timeout));
+        end != Err(mpsc::RecvTimeoutError::Timeout)
     }
 
     /// Waits for several, altogether as long as for one.

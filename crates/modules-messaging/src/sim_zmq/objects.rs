@@ -97,7 +97,7 @@ fn singleton(cx: &Cx) -> ZmqResult<Rc<Context>> {
     if let Some(context) = shared.context.get() {
         return Ok(context.clone());
     }
-    let context = Rc::new(Context::new()?);
+    let context = Rc::new(Context::lasting()?);
     Ok(shared.context.get_or_init(|| context).clone())
 }
 
