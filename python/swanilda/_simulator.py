@@ -62,6 +62,14 @@ class Simulator(_swanilda.Simulator):
     def __exit__(self, *exception: object) -> None:
         self.close()
 
+    def branch(self, n: int) -> list[Simulator]:
+        """Simulators that go on from the present moment, each as this one would: what happens in one is unknown to the others.
+
+        One of them is in memory at a time, so to go from one to another takes as long as a snapshot and a restore. Modules and scripts
+        belong to the simulator that they were asked of.
+        """
+        return [Simulator(_branch=number) for number in self._branch(n)]
+
     def script(self, path: str | SupportsIndex) -> Script:
         """The script with that path or handle."""
         sim = self.require("sim")

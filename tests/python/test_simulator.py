@@ -68,6 +68,132 @@ def test_a_snapshot_is_brought_back_with_the_same_future():
                 other.restore(before)
 
 
+def pushed(s, force, steps=20):
+    """The hashes of steps in which the pole is pushed."""
+    sim = s.require("sim")
+    pole = sim.getObject("/Pole")
+    hashes = []
+    for _ in range(steps):
+        if force:
+            sim.addForce(pole, [0, 0, 0], [force, 0, 0])
+        s.step()
+        hashes.append((s.state_hash(), s.time, s.steps))
+        yield hashes[-1]
+
+
+def pendulum(steps=20):
+    s = swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=7, quiet=True)
+    s.start()
+    s.step(steps)
+    return s
+
+
+def test_branches_go_on_apart_in_any_order():
+    forces = (0, 0.5, 1)
+    alone = []
+    for force in forces:
+        with pendulum() as s:
+            alone.append(list(pushed(s, force)))
+    with pendulum() as s:
+        branches = s.branch(3)
+        assert [type(b) for b in branches] == [swanilda.Simulator] * 3
+        assert len({b.state_hash() for b in [s, *branches]}) == 1
+        # In turns, step by step.
+        runs = [pushed(b, force) for b, force in zip(branches, forces)]
+        assert list(zip(*runs)) == list(zip(*alone))
+        assert s.steps == 20
+        assert list(pushed(s, 0)) == alone[0]
+        assert s.branch(0) == []
+        # A branch has branches of its own, and snapshots are the simulator's.
+        before = branches[1].snapshot()
+        later = branches[1].branch(1)[0]
+        branches[1].step()
+        assert later.state_hash() == alone[1][-1][0] != branches[1].state_hash()
+        s.restore(before)
+        assert s.state_hash() == later.state_hash()
+
+
+def test_what_belongs_to_a_branch_calls_there():
+    with swanilda.Simulator(quiet=True) as s:
+        counter = s.add_script("n = 0  function add() n = n + 1  return n end")
+        a, b = s.branch(2)
+        in_a, in_b = a.script(counter), b.script(counter)
+        assert [in_a.add(), in_a.add(), in_b.add(), counter.add(), in_a.add()] == [1, 2, 1, 1, 3]
+        sim_a, sim_b = a.require("sim"), b.require("sim")
+        sim_a.createDummy(0.1)
+        assert len(sim_a.getObjectsInTree(sim_a.handle_scene)) == 1 + len(sim_b.getObjectsInTree(sim_b.handle_scene))
+        new = a.add_script("function here() return true end")
+        assert new.here()
+        with pytest.raises(swanilda.Error):
+            b.script(new).here()
+
+
+def test_branches_are_closed_one_by_one():
+    with swanilda.Simulator(quiet=True) as s:
+        s.start()
+        a, b, c = s.branch(3)
+        a.step()
+        s.close()
+        a.step()
+        a.close()
+        assert not s.is_open and not a.is_open and b.is_open
+        with pytest.raises(swanilda.Error, match="closed"):
+            a.step()
+        b.step(3)
+        del b
+        assert (c.steps, c.state) == (0, "running")
+        c.step(2)
+        c.close()
+        assert not c.is_open
+
+
+def test_a_branch_with_a_socket_is_not_left():
+    with swanilda.Simulator(quiet=True) as s:
+        other = s.branch(1)[0]
+        script = s.add_script("simZMQ = require 'simZMQ'  socket = simZMQ.socket(simZMQ.ctx_new(), simZMQ.REP)")
+        for use in (other.step, other.state_hash, other.start, lambda: other.require("sim")):
+            with pytest.raises(swanilda.Error, match="does not reach a ZeroMQ context, a ZeroMQ socket"):
+                use()
+        assert other.is_open
+        with pytest.raises(swanilda.Error, match="does not reach a ZeroMQ context, a ZeroMQ socket"):
+            s.branch(1)
+        s.require("sim").removeObjects([script.handle])
+        other.start()
+        other.step()
+        with pytest.raises(swanilda.Error, match="does not exist"):
+            other.require("sim").getObjectPosition(script.handle)
+
+
+def test_no_branch_is_entered_from_inside_another(simulator, sim):
+    other = simulator.branch(1)[0]
+    theirs = other.require("sim")
+    before = simulator.snapshot()
+    errors = []
+
+    def uses_others(*_):
+        for use in (lambda: theirs.getSimulationTime(), other.snapshot, simulator.snapshot, lambda: simulator.restore(before)):
+            with pytest.raises(swanilda.Error, match="at work|middle of a step") as raised:
+                use()
+            errors.append(str(raised.value))
+
+    simulator.start()
+    limits = {"maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [10.0]}
+    sim.moveToConfig({"pos": [0.0], "targetPos": [0.01], **limits, "callback": uses_others})
+    assert len(errors) > 4
+    assert simulator.time > 0 and theirs.getSimulationTime() == 0
+
+
+def test_a_simulator_is_shown_or_branched(simulator):
+    branches = simulator.branch(1)
+    for each in (simulator, *branches):
+        with pytest.raises(swanilda.Error, match="no branches"):
+            each.view()
+    branches[0].close()
+    simulator.view()
+    with pytest.raises(swanilda.Error, match="no branches"):
+        simulator.branch(1)
+
+
 def test_no_snapshot_forgets_variables_of_python(simulator):
     class Robot:
         def sysCall_init(self):

@@ -4,12 +4,14 @@
 
 mod arrays;
 mod batch;
+mod branches;
 mod callables;
 mod console;
 mod convert;
 mod errors;
 mod host;
 mod lua_tests;
+mod making;
 mod module;
 mod script;
 mod simulator;
@@ -26,13 +28,15 @@ mod _swanilda {
     #[pymodule_export]
     use crate::batch::Batch;
     #[pymodule_export]
+    use crate::branches::Snapshot;
+    #[pymodule_export]
     use crate::errors::Error;
     #[pymodule_export]
     use crate::lua_tests::{list_tests, run_tests};
     #[pymodule_export]
     use crate::module::{Function, Module};
     #[pymodule_export]
-    use crate::simulator::{Simulator, Snapshot};
+    use crate::simulator::Simulator;
     #[pymodule_export]
     use crate::worlds::{close_all, forget_after_fork};
 

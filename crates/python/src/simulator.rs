@@ -12,13 +12,12 @@ use pyo3::types::{PyBytes, PyTuple};
 use scene::Handle;
 use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer};
 
-use crate::callables::Callables;
-use crate::console::PythonConsole;
+use crate::branches::{NOT_SHOWN, Snapshot};
 use crate::errors::{self, Error};
-use crate::host::ThisPython;
+use crate::making::made;
 use crate::module::Module;
-use crate::script::{MainProgram, PythonScript};
-use crate::worlds::{self, Shared, Speaker, World};
+use crate::script::PythonScript;
+use crate::worlds::{self, Shared, World};
 
 /// Steps between two looks at signals, such as that of ctrl-c.
 const STEPS_AT_ONCE: u64 = 32;
@@ -27,19 +26,6 @@ const STEPS_AT_ONCE: u64 = 32;
 #[pyclass(subclass, frozen, module = "swanilda._swanilda")]
 pub struct Simulator {
     number: u64,
-}
-
-/// A simulator as it was at a moment.
-#[pyclass(frozen, module = "swanilda._swanilda")]
-pub struct Snapshot(swanilda::Snapshot);
-
-#[pymethods]
-impl Snapshot {
-    /// Bytes that only this snapshot holds.
-    #[getter]
-    fn own_bytes(&self) -> usize {
-        self.0.own_bytes()
-    }
 }
 
 /// The type of script of that name.
@@ -56,44 +42,11 @@ fn kind_of(name: &str) -> PyResult<ScriptKind> {
     }
 }
 
-fn made(options: Options, quiet: bool) -> World {
-    let (callables, shared) = (Rc::<Callables>::default(), Rc::<Shared>::default());
-    let builder = swanilda::Simulator::builder().options(options);
-    let builder = builder.python(Rc::new(ThisPython {
-        shared: Rc::clone(&shared),
-    }));
-    let builder = if quiet {
-        builder
-    } else {
-        builder.console(Box::new(PythonConsole))
-    };
-    let mut simulator = builder.build();
-    let (functions, exceptions) = (Rc::clone(&callables), Rc::clone(&shared));
-    let main = simulator.add_native_script(ScriptKind::AddOn, "Python", move |_| {
-        Ok(Box::new(MainProgram {
-            callables: Rc::clone(&functions),
-            shared: Rc::clone(&exceptions),
-        }))
-    });
-    let main = main.expect("add-ons are no objects, for which there could be no room");
-    let main = Rc::new(Speaker {
-        caller: simulator.caller(&main),
-        callables,
-    });
-    World {
-        number: worlds::new_number(),
-        simulator: simulator.into(),
-        main,
-        shared,
-        viewer: None.into(),
-    }
-}
-
 #[pymethods]
 impl Simulator {
     #[new]
     #[pyo3(signature = (scene=None, *, seed=None, params=None, kind="customization", time_step=None, empty=false, quiet=false,
-        unsafe_functions=true, package_dirs=None, data_dir=None, verbosity=None, render_threads=None))]
+        unsafe_functions=true, package_dirs=None, data_dir=None, verbosity=None, render_threads=None, _branch=None))]
     #[expect(
         clippy::too_many_arguments,
         reason = "keyword arguments, each of which has a default"
@@ -112,7 +65,11 @@ impl Simulator {
         data_dir: Option<PathBuf>,
         verbosity: Option<i64>,
         render_threads: Option<usize>,
+        _branch: Option<u64>,
     ) -> PyResult<Self> {
+        if let Some(number) = _branch {
+            return Ok(Self { number });
+        }
         let kind = kind_of(kind)?;
         if time_step.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
             return Err(PyValueError::new_err(
@@ -191,6 +148,9 @@ impl Simulator {
     /// Shows the simulator to browsers on this machine; returns the address of the page.
     fn _view(&self, port: u16) -> PyResult<String> {
         let world = self.world()?;
+        if world.has_branches() {
+            return Err(Error::new_err(NOT_SHOWN));
+        }
         if world.viewer.borrow().is_none() {
             let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
             let mut simulator = world.borrow()?;
@@ -232,6 +192,12 @@ impl Simulator {
         restored.map_err(|error| errors::plain(&error))
     }
 
+    /// The numbers of branches from the present moment on.
+    fn _branch(&self, py: Python<'_>, count: usize) -> PyResult<Vec<u64>> {
+        let number = self.number;
+        py.detach(|| worlds::get(number)?.branch(count))
+    }
+
     /// Ends the simulator; its scripts clean up.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         let number = self.number;
@@ -241,7 +207,7 @@ impl Simulator {
     /// Whether it can be used: by this thread, and not closed.
     #[getter]
     fn is_open(&self) -> bool {
-        worlds::get(self.number).is_ok()
+        worlds::find(self.number).is_ok()
     }
 
     /// Simulated time, seconds.

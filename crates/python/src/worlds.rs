@@ -2,6 +2,7 @@
 //!
 //! A simulator belongs to the thread that made it. Python's objects, which any thread may have, only know its number; the simulators
 //! themselves lie in a table of their thread. So nothing has to be locked, and another thread gets a sentence instead of a crash.
+//! Branches of a simulator are several numbers of one: one of them is what the memory holds now, of the others there are snapshots.
 //! A child process made by `fork` has copies of them whose sockets and threads are not its own: it forgets them.
 
 use std::cell::{Cell, RefCell};
@@ -13,6 +14,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use swanilda::{Caller, SimulationState, Simulator, Viewer};
 
+use crate::branches::Branches;
 use crate::callables::Callables;
 use crate::errors::Error;
 use crate::host;
@@ -39,7 +41,7 @@ pub struct Shared {
     pub exception: RefCell<Option<PyErr>>,
 }
 
-/// One simulator.
+/// One simulator, with its branches.
 pub struct World {
     pub number: u64,
     /// Borrowed while it runs.
@@ -49,6 +51,7 @@ pub struct World {
     pub shared: Rc<Shared>,
     /// What shows it in browsers.
     pub viewer: RefCell<Option<Viewer>>,
+    pub branches: RefCell<Branches>,
 }
 
 impl World {
@@ -100,14 +103,29 @@ pub fn new_number() -> u64 {
 
 /// Adds a simulator to those of this thread.
 pub fn add(world: World) {
-    WORLDS.with_borrow_mut(|worlds| worlds.insert(world.number, Rc::new(world)));
+    add_as(world.number, &Rc::new(world));
 }
 
-/// The simulator with that number.
+/// Adds a branch of a simulator.
+pub fn add_as(number: u64, world: &Rc<World>) {
+    WORLDS.with_borrow_mut(|worlds| worlds.insert(number, Rc::clone(world)));
+}
+
+/// The simulator with that number; its memory is that of the branch.
+///
+/// # Errors
+/// When it is closed, or another thread's, or another process's; or when another branch cannot be left.
+pub fn get(number: u64) -> PyResult<Rc<World>> {
+    let world = find(number)?;
+    world.turn_to(number)?;
+    Ok(world)
+}
+
+/// The simulator with that number, whatever branch its memory holds.
 ///
 /// # Errors
 /// When it is closed, or another thread's, or another process's.
-pub fn get(number: u64) -> PyResult<Rc<World>> {
+pub fn find(number: u64) -> PyResult<Rc<World>> {
     let found = WORLDS.try_with(|worlds| {
         worlds
             .try_borrow()
@@ -125,10 +143,17 @@ pub fn get(number: u64) -> PyResult<Rc<World>> {
 
 /// Ends a simulator; its scripts clean up. Nothing happens when it is closed, or another thread's.
 pub fn close(number: u64) -> PyResult<()> {
-    let Ok(world) = get(number) else {
+    let Ok(world) = find(number) else {
         return Ok(());
     };
-    world.end()?;
+    // Where another branch cannot be left, this one ends without its turn.
+    let has_turn = world.turn_to(number);
+    if has_turn.is_ok() {
+        world.end()?;
+    } else if !world.has_branches() {
+        return has_turn;
+    }
+    world.forget(number);
     let removed = WORLDS.with_borrow_mut(|worlds| worlds.remove(&number));
     drop(removed);
     let shared = Rc::clone(&world.shared);
