@@ -8,6 +8,10 @@ use swanilda::mlua::{self, Lua, Table};
 use swanilda::scene::Data;
 use swanilda::{ScriptKind, Simulator};
 
+/// As in the command: each simulator has memory of its own.
+#[global_allocator]
+static ALLOCATOR: swanilda::Allocator = swanilda::Allocator;
+
 /// Calls in a tight loop.
 const CALLS: u64 = 100_000;
 

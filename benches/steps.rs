@@ -3,6 +3,10 @@
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use swanilda::{Options, ScriptKind, Simulator};
 
+/// As in the command: each simulator has memory of its own.
+#[global_allocator]
+static ALLOCATOR: swanilda::Allocator = swanilda::Allocator;
+
 /// Builds so many dummies with an empty child script each.
 const CHILDREN: &str = "
 sim = require 'sim'
