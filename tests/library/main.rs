@@ -6,6 +6,7 @@ mod lines;
 mod old_scenes;
 mod own_module;
 mod permissions;
+mod playback;
 mod real_scenes;
 mod saving;
 mod sensing;

@@ -264,7 +264,6 @@ impl Fixture {
         let parts = Contained::new(|| Parts {
             sim,
             native_scripts: Rc::default(),
-            _debugger: None,
         });
         Self {
             simulator: Simulator::with_main_and_sandbox(parts, options),

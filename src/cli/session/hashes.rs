@@ -113,7 +113,10 @@ impl Hashes {
                 Err(error) => self.end = Some(End::Failed(failed(path, &error))),
             },
         }
-        if let Some(last) = &mut self.last {
+        // Every run ends with a stop of some steps, unless a script ends the program.
+        if let Some(last) = &mut self.last
+            && (sim.state().is_stopping() || sim.quit_requested())
+        {
             *last = Some((sim.steps(), sim.state_hash()));
         }
     }

@@ -7,6 +7,7 @@ use super::bytes::{Bytes, Key64};
 use super::news::{Followed, News};
 use super::slots::{GENERAL, Slots};
 use super::stored::{Stored, all_names, names_of_object, shown, target_of, with_values};
+use super::unrecorded::TrackedScript;
 use crate::host::Sim;
 use scene::{Cursor, Handle, Holder, Namespace, Object, Scene, Topics, special};
 
@@ -36,7 +37,7 @@ pub(super) struct Hashes {
     /// What is hashed as one.
     singles: BTreeMap<(i64, &'static str), u64>,
     /// Of each script.
-    pub(super) scripts: Vec<(i64, u64)>,
+    pub(super) scripts: Vec<TrackedScript>,
 }
 
 /// The sum of all hashes: it does not matter in which order they change.

@@ -64,14 +64,16 @@ const LEFT_OUT: &[&str] = &[
 const LARGE: &[&str] = &["voxels", "points", "colors"];
 
 /// Changes of nearly every step. Any other change of an object can concern all its properties.
-const FREQUENT: Topics = Topics::NONE.with_fields(&[
+const FREQUENT_FIELDS: &[Field] = &[
     Field::Alias,
     Field::Pose,
     Field::Measured,
     Field::JointPosition,
     Field::JointControl,
     Field::Texture,
-]);
+];
+
+const FREQUENT: Topics = Topics::NONE.with_fields(FREQUENT_FIELDS);
 
 const GEOMETRY: Topics = Topics::NONE.with(Topic::Field(Field::Geometry));
 
@@ -91,10 +93,12 @@ enum Read {
 
 /// The hashed values of a class of targets.
 pub(super) struct Slots {
-    /// What frequent changes concern comes first.
+    /// Those read directly come first.
     pub slots: Vec<Slot>,
     /// How many they are.
     direct: usize,
+    /// The positions of those that each frequent change concerns.
+    frequent: Vec<(Topic, Vec<usize>)>,
 }
 
 /// Changes that can concern any value.
@@ -123,32 +127,50 @@ impl Slots {
         };
         let properties = properties_of(object_class(kind)).filter(|row| !replaced(row.name));
         let slots = direct.iter().map(|one| Slot::direct(one));
-        Self {
-            slots: slots.chain(properties.map(Slot::property)).collect(),
-            direct: direct.len(),
-        }
+        Self::new(
+            slots.chain(properties.map(Slot::property)).collect(),
+            direct.len(),
+        )
     }
 
     /// Of the scene.
     pub(super) fn of_scene() -> &'static Self {
-        static SLOTS: Lazy<Slots> = Lazy::new(|| Slots {
-            slots: properties_of(scene_class()).map(Slot::property).collect(),
-            direct: 0,
+        static SLOTS: Lazy<Slots> = Lazy::new(|| {
+            let slots = properties_of(scene_class()).map(Slot::property).collect();
+            Slots::new(slots, 0)
         });
         &SLOTS
     }
 
+    fn new(slots: Vec<Slot>, direct: usize) -> Self {
+        let concerned = |topic: Topic| {
+            let places = 0..slots.len();
+            let places = places.filter(|at| slots[*at].topics.contains(topic));
+            (topic, places.collect())
+        };
+        let fields = FREQUENT_FIELDS.iter().map(|field| Topic::Field(*field));
+        let frequent = fields.map(concerned).collect();
+        Self {
+            slots,
+            direct,
+            frequent,
+        }
+    }
+
     /// The positions of the values that these changes can concern.
     pub(super) fn concerned(&self, changes: Topics) -> impl Iterator<Item = usize> {
-        let end = if changes.intersects(GENERAL) {
-            self.slots.len()
+        let is_general = changes.intersects(GENERAL);
+        let all = if is_general {
+            0..self.slots.len()
         } else {
-            self.direct
+            0..0
         };
-        let slots = self.slots[..end].iter().enumerate();
-        slots
-            .filter(move |(_, slot)| slot.topics.intersects(changes))
-            .map(|(at, _)| at)
+        let all = all.filter(move |at| self.slots[*at].topics.intersects(changes));
+        let frequent = if is_general { &[] } else { &self.frequent[..] };
+        let frequent = frequent
+            .iter()
+            .filter(move |(topic, _)| changes.contains(*topic));
+        all.chain(frequent.flat_map(|(_, places)| places.iter().copied()))
     }
 
     /// The positions of where an object is in the tree.

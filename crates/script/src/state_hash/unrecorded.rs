@@ -42,34 +42,73 @@ impl Hashes {
         let mut before = std::mem::take(&mut self.scripts).into_iter().peekable();
         let mut now = Vec::with_capacity(before.len());
         sim.scripts.for_each(|script| {
-            while let Some((id, mut value)) = before.next_if(|(id, _)| *id < script.id) {
-                self.set_script(id, &mut value, 0, sink);
+            while let Some(gone) = before.next_if(|known| known.id < script.id) {
+                self.forget_script(gone, sink);
             }
-            let old = before.next_if(|(id, _)| *id == script.id);
-            let mut value = old.map_or(0, |(_, value)| value);
-            let hash = self.hash_of_script(script);
-            self.set_script(script.id, &mut value, hash, sink);
-            now.push((script.id, value));
+            let known = before.next_if(|known| known.id == script.id);
+            let seen = Seen::of(script);
+            now.push(match known {
+                Some(known) if known.seen == seen => known,
+                known => self.look_at_script(script.id, seen, known, sink),
+            });
         });
-        for (id, mut value) in before {
-            self.set_script(id, &mut value, 0, sink);
+        for gone in before {
+            self.forget_script(gone, sink);
         }
         self.scripts = now;
     }
 
-    fn set_script(&mut self, id: i64, value: &mut u64, hash: u64, sink: Sink<'_>) {
-        self.sum.replace(value, changed(id, SCRIPT, hash), sink);
+    fn look_at_script(
+        &mut self,
+        id: i64,
+        seen: Seen,
+        known: Option<TrackedScript>,
+        sink: Sink<'_>,
+    ) -> TrackedScript {
+        static KEY: Lazy<Key64> = Lazy::new(|| Key64::of_name(SCRIPT));
+        let mut value = known.map_or(0, |known| known.value);
+        self.bytes.int(seen.state);
+        if let Some(place) = seen.random {
+            self.random_place(place);
+        }
+        for word in seen.random_of_language.into_iter().flatten() {
+            self.bytes.int(word.cast_signed());
+        }
+        let hash = self.bytes.take_hash(KEY.on(id));
+        self.sum
+            .replace(&mut value, changed(id, SCRIPT, hash), sink);
+        TrackedScript { id, seen, value }
     }
 
-    fn hash_of_script(&mut self, script: &Script) -> u64 {
-        static KEY: Lazy<Key64> = Lazy::new(|| Key64::of_name(SCRIPT));
-        self.bytes.int(script.state());
-        if let Some(runtime) = script.current_runtime() {
-            self.random_place(runtime.env.random.borrow().place());
-            for word in runtime.interpreter.random_state().into_iter().flatten() {
-                self.bytes.int(word.cast_signed());
-            }
+    fn forget_script(&mut self, mut gone: TrackedScript, sink: Sink<'_>) {
+        self.sum
+            .replace(&mut gone.value, changed(gone.id, SCRIPT, 0), sink);
+    }
+}
+
+/// The hash of a script, and what it is of.
+pub(super) struct TrackedScript {
+    id: i64,
+    seen: Seen,
+    value: u64,
+}
+
+/// What is hashed of a script: to compare it costs less than its hash.
+#[derive(PartialEq, Eq)]
+struct Seen {
+    state: i64,
+    random: Option<(u32, u64)>,
+    random_of_language: Option<[u64; 4]>,
+}
+
+impl Seen {
+    fn of(script: &Script) -> Self {
+        let runtime = script.runtime.borrow();
+        let runtime = runtime.as_ref();
+        Self {
+            state: script.state(),
+            random: runtime.map(|runtime| runtime.env.random.borrow().place()),
+            random_of_language: runtime.and_then(|runtime| runtime.interpreter.random_state()),
         }
-        self.bytes.take_hash(KEY.on(script.id))
     }
 }
