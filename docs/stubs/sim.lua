@@ -3860,7 +3860,7 @@ function sim.setShapeAppearance(handle, appearance, options) end
 function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
----@param shapeHandle any the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
+---@param shapeHandle integer the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
 ---@param colorName? string nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
 ---@param colorComponent integer sim.colorcomponent_*
 ---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque

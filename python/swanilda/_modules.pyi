@@ -5265,7 +5265,7 @@ class _sim:
         shapeHandle: the shape
         size: along the axes of its box
         """
-    def setShapeColor(self, shapeHandle: Any | None = ..., colorName: str | None = ..., colorComponent: int | None = ..., rgbData: Sequence[float] | _Array | None = ..., /) -> int:
+    def setShapeColor(self, shapeHandle: int, colorName: str | None = ..., colorComponent: int | None = ..., rgbData: Sequence[float] | _Array | None = ..., /) -> int:
         """Colours a shape.
         shapeHandle: the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
         colorName: nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh

@@ -12,9 +12,11 @@ local function isLog(line, levels)
     return levels[level or ''] ~= nil
 end
 
---- Drops what is not a script's output; `isScene`: all warnings and infos as well.
-function M.normalized(output, folder, isScene)
+--- Drops what is not a script's output; `isScene`: all warnings and infos as well. Positions in the case `name` have its file, however it was
+--- loaded.
+function M.normalized(output, folder, name, isScene)
     local lines = {}
+    local chunk = '%[string "' .. name:gsub('%p', '%%%0') .. '"%]:'
     for line in (output:gsub('\n$', '') .. '\n'):gmatch('(.-)\r?\n') do
         local isChatter = line:find(':loadinfo]', 1, true)
             or line:find('^%[sandboxScript:info%]')
@@ -22,7 +24,7 @@ function M.normalized(output, folder, isScene)
             or line == 'stack traceback:'
             or line:find('^\t')
         if not isChatter then
-            line = line:gsub('0x%x%x%x%x%x%x+', '0xADDR')
+            line = line:gsub('0x%x%x%x%x%x%x+', '0xADDR'):gsub(chunk, name .. '.lua:')
             local first, last = line:find(folder, 1, true)
             while first do
                 line = line:sub(1, first - 1) .. line:sub(last + 1)

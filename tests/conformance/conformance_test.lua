@@ -59,8 +59,9 @@ local function check(case)
     local ran = t.run(case .. '.lua', optionsOf(header))
     local folder = t.file(case):match('^(.*/)') or ''
     local isScene = case:find('^scene/') ~= nil
-    local output = compare.normalized(ran.output, folder, isScene)
-    local expected = compare.normalized(read(t.file(case .. '.expected')), folder, isScene)
+    local name = case:match('[^/]*$')
+    local output = compare.normalized(ran.output, folder, name, isScene)
+    local expected = compare.normalized(read(t.file(case .. '.expected')), folder, name, isScene)
     local difference = compare.difference(expected, output, tonumber(header.tol or 0))
     if difference then error({ message = difference, failed = true }) end
 end

@@ -56,8 +56,8 @@ mod python_runtime;
 
 pub use binding::ApiFn;
 pub use binding::args::{
-    Absence, Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest,
-    ScriptFunction, Table,
+    Absence, Args, Bytes, FromScript, Handles, InTurn, LuaNumber, LuaString, Number, ObjectRef,
+    Rest, ScriptFunction, Table,
 };
 pub use binding::hooks::{Hooks, Host, ModuleHook};
 pub use binding::module::{Module, Outside};

@@ -6,12 +6,14 @@ use std::path::Path;
 const SETTINGS_REMARK: &str = " (control verbosity via notifyDeprecated in usrset.txt)";
 
 /// Drops what is not a script's output: loading chatter, the sandbox's infos, tracebacks, addresses, the folder of the case; and
-/// in cases about the scene all warnings and infos.
+/// in cases about the scene all warnings and infos. Positions in the case have its file, however it was loaded.
 pub fn normalize(output: &str, case: &Path) -> String {
     let folder = format!(
         "{}/",
         case.parent().expect("a case lies in a folder").display()
     );
+    let name = case.file_stem().unwrap_or_default().to_string_lossy();
+    let (chunk, file) = (format!("[string \"{name}\"]:"), format!("{name}.lua:"));
     let about_scene = case.components().any(|part| part.as_os_str() == "scene");
     let lines = output.lines().filter(|line| {
         let chatter = line.contains(":loadinfo]")
@@ -20,7 +22,7 @@ pub fn normalize(output: &str, case: &Path) -> String {
         !chatter && *line != "stack traceback:" && !line.starts_with('\t')
     });
     let text: Vec<String> = lines
-        .map(|line| mask_addresses(&line.replace(&folder, "")))
+        .map(|line| mask_addresses(&line.replace(&folder, "").replace(&chunk, &file)))
         .collect();
     text.join("\n")
 }

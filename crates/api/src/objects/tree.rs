@@ -56,10 +56,10 @@ fn get_object_parent(cx: &Cx, object_handle: Handle) -> Result<i64> {
 fn set_object_parent(
     cx: &mut Cx,
     object_handle: ObjectRef,
-    parent_object_handle: Number,
+    parent_object_handle: i64,
     #[default(true)] keep_in_place: bool,
 ) -> Result<i64> {
-    let parent = match parent_object_handle.0 {
+    let parent = match parent_object_handle {
         -1 => None,
         raw => Some(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?),
     };

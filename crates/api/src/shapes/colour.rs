@@ -6,7 +6,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::appearance::colour::{ColourComponent, ColourName};
 use scene::numbers;
 use scene::{Data, Handle, SceneError};
-use script::Number;
+use script::{Absence, Args, FromScript, InTurn, Number, Source};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_shape_color,
@@ -52,21 +52,22 @@ fn get_shape_color(
 #[api("sim.setShapeColor")]
 fn set_shape_color(
     cx: &mut Cx,
-    shape_handle: Data,
+    shape_handle: MarkedHandle,
     color_name: Option<String>,
-    color_component: Number,
-    rgb_data: Vec<f64>,
+    color_component: InTurn<Number>,
+    rgb_data: InTurn<Vec<f64>>,
 ) -> Result<i64> {
-    let component = component(color_component)?;
-    if rgb_data.len() < component.width() {
+    let component = component(color_component.0)?;
+    if rgb_data.0.len() < component.width() {
         return Err(ApiError::TableSize);
     }
-    let shape_handle = marked_shape(cx, &shape_handle)?;
+    let handle = Handle::from_raw(shape_handle.0).ok_or(SceneError::NoSuchObject)?;
+    let shape_handle = cx.scene().object(handle)?.handle();
     cx.scene_mut().set_shape_colour(
         shape_handle,
         &ColourName::from_script(color_name),
         component,
-        &rgb_data,
+        &rgb_data.0,
     )?;
     Ok(1)
 }
@@ -119,21 +120,23 @@ fn set_object_color(
         .set_object_colour(object_handle, index, component, &rgb_data)?)
 }
 
-/// The shape a handle means, which scripts of old scenes mark.
-fn marked_shape(cx: &Cx, handle: &Data) -> Result<Handle> {
-    let number = match handle {
-        Data::Text(text) => std::str::from_utf8(text).ok().and_then(|text| {
-            text.strip_prefix("@backCompatibility1:")
-                .unwrap_or(text)
-                .parse::<f64>()
-                .ok()
-        }),
-        other => other.as_f64(),
-    };
-    let number = number.ok_or(ApiError::NotA {
-        position: 1,
-        expected: "number",
-    })?;
-    let handle = Handle::from_raw(numbers::truncated(number)).ok_or(SceneError::NoSuchObject)?;
-    Ok(cx.scene().object(handle)?.handle())
+/// A handle, which scripts of old scenes mark.
+struct MarkedHandle(i64);
+
+impl From<MarkedHandle> for Data {
+    fn from(MarkedHandle(handle): MarkedHandle) -> Self {
+        handle.into()
+    }
+}
+
+impl FromScript for MarkedHandle {
+    const TYPE: &'static str = "int";
+    const ABSENCE: Absence = Absence::Decoded;
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
+        let text = String::from_script(args)?;
+        let number = text.strip_prefix("@backCompatibility1:").unwrap_or(&text);
+        let number: f64 = number.parse().map_err(|_| args.not_a("number"))?;
+        Ok(Self(numbers::truncated(number)))
+    }
 }

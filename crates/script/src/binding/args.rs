@@ -458,6 +458,25 @@ pub enum ScriptFunction {
     Value(#[doc(hidden)] FunctionRef),
 }
 
+/// An argument that is missed only after those before it were found right, as older functions check them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InTurn<T>(pub T);
+
+impl<T> From<T> for InTurn<T> {
+    fn from(value: T) -> Self {
+        Self(value)
+    }
+}
+
+impl<T: FromScript> FromScript for InTurn<T> {
+    const TYPE: &'static str = T::TYPE;
+    const ABSENCE: Absence = Absence::Decoded;
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
+        T::from_script(args).map(Self)
+    }
+}
+
 /// All remaining arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rest(pub Vec<Data>);
