@@ -1,7 +1,5 @@
 //! A client of the Debug Adapter Protocol.
 
-#![allow(clippy::disallowed_methods, reason = "the clock bounds the waits")]
-
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
@@ -25,17 +23,21 @@ pub struct Client {
 }
 
 impl Client {
-    /// Starts `swanilda debug` with these arguments, on standard input and output.
-    pub fn start(arguments: &[&str]) -> Self {
-        let mut command = spawn(arguments);
+    /// Starts `swanilda debug` with these arguments, on standard input and output. `program` is `swanilda`.
+    ///
+    /// # Panics
+    /// As all functions here, when something is not as the test expects.
+    pub fn start(program: &str, arguments: &[&str]) -> Self {
+        let mut command = spawn(program, &[&["debug"], arguments].concat());
         let output = command.stdin.take().expect("a pipe");
         let input = command.stdout.take().expect("a pipe");
         Self::of(command, input, output)
     }
 
     /// The same over a port.
-    pub fn start_on_port(arguments: &[&str]) -> Self {
-        Self::connect(spawn(&[&["--port", "0"], arguments].concat()))
+    pub fn start_on_port(program: &str, arguments: &[&str]) -> Self {
+        let arguments = [&["debug", "--port", "0"], arguments].concat();
+        Self::connect(spawn(program, &arguments))
     }
 
     /// Connects to the address that a command prints first.
@@ -55,8 +57,8 @@ impl Client {
     }
 
     /// The same for another command that listens, `swanilda serve` for instance.
-    pub fn attach(arguments: &[&str]) -> Self {
-        Self::connect(spawn_command(arguments))
+    pub fn attach(program: &str, arguments: &[&str]) -> Self {
+        Self::connect(spawn(program, arguments))
     }
 
     fn of(
@@ -254,7 +256,9 @@ impl Drop for Client {
 
 /// A script that stands still.
 pub struct Stopped {
+    /// The thread of the script.
     pub thread: Value,
+    /// What runs in it, innermost first.
     pub frames: Vec<Value>,
 }
 
@@ -278,12 +282,8 @@ impl Stopped {
     }
 }
 
-fn spawn(arguments: &[&str]) -> Child {
-    spawn_command(&[&["debug"], arguments].concat())
-}
-
-fn spawn_command(arguments: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_swanilda"))
+fn spawn(program: &str, arguments: &[&str]) -> Child {
+    Command::new(program)
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

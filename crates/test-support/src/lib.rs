@@ -1,4 +1,4 @@
-//! What the tests of several packages need: commands that run with a bound on time, outputs that are compared with recordings, work on
+//! What the tests of several packages need: commands that run with a bound on time, outputs that are compared with recordings, a client of the debugger, work on
 //! all processors, and numbers drawn at random. No package that is published depends on it outside of its tests.
 
 #![allow(
@@ -7,6 +7,7 @@
 )]
 
 pub mod compare;
+pub mod debug_client;
 pub mod parallel;
 pub mod process;
 pub mod random;

@@ -116,7 +116,6 @@ fn expressions_leave_no_trace() {
 #[test]
 fn a_time_is_reached_with_its_lines_and_hash() {
     let folder = capture();
-    let bench = Bench::new(&[("scene.lua", SCENE)]);
     let capture = folder.path().join("run.swc");
     let output = replay(&capture, &["--at", "0.5"]);
     let said = text(&output.stdout);

@@ -7,7 +7,8 @@ use serde_json::json;
 use tempfile::TempDir;
 use test_support::process::output_of;
 
-use super::client::{Client, Stopped, named};
+use super::SWANILDA;
+use test_support::debug_client::{Client, Stopped, named};
 
 /// A function that is called in each step, a thread, and an error at the end. Addresses and random numbers are part of what is shown.
 const SCRIPT: &str = "\
@@ -48,7 +49,7 @@ fn capture(script: &str) -> (TempDir, PathBuf) {
     let place = folder.path().canonicalize().expect("it is there");
     let (scene, capture) = (place.join("back.lua"), place.join("run.swc"));
     std::fs::write(&scene, script).expect("the file is written");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    let mut command = Command::new(SWANILDA);
     command
         .arg("run")
         .arg(&scene)
@@ -59,7 +60,7 @@ fn capture(script: &str) -> (TempDir, PathBuf) {
 
 /// The line that the thread has printed then, with the address of a table.
 fn captured_line(capture: &Path, i: u32) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    let mut command = Command::new(SWANILDA);
     let output = output_of(command.arg("replay").arg(capture));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let line = text
@@ -71,7 +72,7 @@ fn captured_line(capture: &Path, i: u32) -> String {
 /// A client whose capture has stopped at a breakpoint.
 fn stopped_at(capture: &Path, line: u32, condition: &str) -> (Client, Stopped, PathBuf) {
     let scene = capture.with_file_name("back.lua");
-    let mut client = Client::start(&[&capture.to_string_lossy()]);
+    let mut client = Client::start(SWANILDA, &[&capture.to_string_lossy()]);
     client.launch(json!({}));
     client.set_breakpoints(&scene, json!([{"line": line, "condition": condition}]));
     client.run();

@@ -1,7 +1,6 @@
 //! `swanilda debug`, as an editor uses it.
 
 mod back;
-mod client;
 mod more;
 
 use std::path::PathBuf;
@@ -9,7 +8,10 @@ use std::path::PathBuf;
 use serde_json::json;
 use tempfile::TempDir;
 
-use client::{Client, named};
+use test_support::debug_client::{Client, named};
+
+/// The command.
+const SWANILDA: &str = env!("CARGO_BIN_EXE_swanilda");
 
 /// A script with a line for everything that can be looked at.
 const SCRIPT: &str = include_str!("script.lua");
@@ -27,7 +29,7 @@ fn file(text: &str) -> (TempDir, PathBuf) {
 }
 
 fn start(file: &std::path::Path) -> Client {
-    Client::start(&[&file.to_string_lossy(), "--", "--time", "0.5"])
+    Client::start(SWANILDA, &[&file.to_string_lossy(), "--", "--time", "0.5"])
 }
 
 #[test]
@@ -142,7 +144,7 @@ fn steps_go_over_into_and_out_of_functions_and_threads() {
 #[test]
 fn the_first_line_stops_when_it_is_asked_for() {
     let (_folder, file) = file(SCRIPT);
-    let mut client = Client::start(&[]);
+    let mut client = Client::start(SWANILDA, &[]);
     client.launch(json!({"program": file, "stopOnEntry": true, "time": 0.2, "args": ["--empty"]}));
     client.run();
     let stopped = client.stopped("step");
@@ -153,12 +155,12 @@ fn the_first_line_stops_when_it_is_asked_for() {
 
 #[test]
 fn what_cannot_be_run_is_said() {
-    let mut client = Client::start(&["nothing.lua"]);
+    let mut client = Client::start(SWANILDA, &["nothing.lua"]);
     client.launch(json!({"args": ["--empty"]}));
     client.run();
     client.output("cannot read nothing.lua");
     assert_eq!(client.end(), Some(2));
-    let mut client = Client::start(&[]);
+    let mut client = Client::start(SWANILDA, &[]);
     client.launch(json!({"program": "x.lua", "args": ["--no-such-option"]}));
     client.run();
     client.output("--no-such-option");
@@ -168,7 +170,8 @@ fn what_cannot_be_run_is_said() {
 #[test]
 fn a_port_serves_too() {
     let (_folder, file) = file(SCRIPT);
-    let mut client = Client::start_on_port(&[&file.to_string_lossy(), "--", "--time", "0.2"]);
+    let mut client =
+        Client::start_on_port(SWANILDA, &[&file.to_string_lossy(), "--", "--time", "0.2"]);
     client.launch(json!({}));
     client.set_breakpoints(&file, json!([{"line": 26}]));
     client.run();

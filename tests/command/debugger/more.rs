@@ -2,8 +2,9 @@
 
 use serde_json::json;
 
-use super::client::{Client, named};
+use super::SWANILDA;
 use super::{file, start};
+use test_support::debug_client::{Client, named};
 
 /// Functions that are called in turn, and fail in different ways.
 const FAULTS: &str = "\
@@ -221,7 +222,7 @@ fn changes_of_properties_stop_after_the_call() {
 #[test]
 fn a_restart_begins_again_with_the_same_breakpoints() {
     let (_folder, file) = file(FAULTS);
-    let mut client = Client::start(&[&file.to_string_lossy(), "--", "--time", "0.1"]);
+    let mut client = Client::start(SWANILDA, &[&file.to_string_lossy(), "--", "--time", "0.1"]);
     client.launch(json!({}));
     client.set_breakpoints(&file, json!([{"line": 4, "hitCondition": "2"}]));
     client.run();
@@ -240,7 +241,10 @@ fn a_client_comes_to_a_simulation_that_runs_and_goes() {
     let (_folder, file) = file(
         "sim = require 'sim'\nfunction sysCall_init()\n    steps = 0\nend\nfunction sysCall_sensing()\n    steps = steps + 1\n    if done then sim.stopSimulation() end\nend\n",
     );
-    let mut client = Client::attach(&["run", &file.to_string_lossy(), "--debug", "0", "--quiet"]);
+    let mut client = Client::attach(
+        SWANILDA,
+        &["run", &file.to_string_lossy(), "--debug", "0", "--quiet"],
+    );
     client.request("initialize", json!({}));
     client.request("attach", json!({}));
     client.event("initialized");
