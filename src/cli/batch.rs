@@ -9,12 +9,14 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Outcome;
+use super::capture::captures;
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::resources::ResourceArgs;
 use super::setup::{named_param, seconds};
+use capture::{Header, Tape};
 use simulator::Options;
-use testing::batch::{self, Batch, Run, Store};
+use testing::batch::{self, Batch, Finished, Run, Store};
 use testing::{Allowance, Config};
 
 /// Exit code when some runs failed.
@@ -61,6 +63,9 @@ pub(super) struct Args {
     /// Make the runs on a cluster of Ray, with Python's package swanilda: its address, or local
     #[arg(long, value_name = "ADDRESS")]
     ray: Option<String>,
+    /// Capture runs that fail, to run them again with `swanilda replay FILE`: a file for each, in this folder [default FOLDER: batch-captures]
+    #[arg(long, value_name = "FOLDER", num_args = 0..=1, require_equals = true, default_missing_value = "batch-captures", conflicts_with = "ray")]
+    capture_failures: Option<PathBuf>,
     /// Start over and overwrite existing results
     #[arg(long)]
     force: bool,
@@ -100,24 +105,18 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     let bar = bar(&runs, &missing);
     let mut lost = None;
     let mut read = BTreeSet::new();
-    batch::run(
-        &args.config(interrupt),
-        &batch,
-        &missing,
-        &mut |row, params_read| {
-            read.extend(params_read.iter().cloned());
-            if let Some(error) = &row.error {
-                bar.suspend(|| {
-                    super::complain(&format!(
-                        "run {} (seed {}): {error}",
-                        row.run.number, row.run.seed
-                    ));
-                });
-            }
-            bar.inc(1);
-            lost = lost.take().or(store.add(row).err());
-        },
-    )?;
+    let config = Config {
+        captures: captures(args.capture_failures.as_ref())?,
+        ..args.config(interrupt)
+    };
+    batch::run(&config, &batch, &missing, &mut |finished| {
+        read.extend(finished.params_read.iter().cloned());
+        if let Some(text) = failure(&finished) {
+            bar.suspend(|| super::complain(&text));
+        }
+        bar.inc(1);
+        lost = lost.take().or(store.add(finished.row).err());
+    })?;
     bar.finish_and_clear();
     if let Some(error) = lost {
         return Err(error.to_string());
@@ -133,6 +132,30 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     } else {
         u8::from(failed > 0) * FAILED
     })
+}
+
+/// What is said of a run that has failed.
+fn failure(finished: &Finished<'_>) -> Option<String> {
+    let run = &finished.row.run;
+    let error = finished.row.error.as_ref()?;
+    let capture = finished.capture.map_or_else(String::new, |capture| {
+        format!("; swanilda replay {}", capture.display())
+    });
+    Some(format!(
+        "run {} (seed {}): {error}{capture}",
+        run.number, run.seed
+    ))
+}
+
+/// Makes the run of a capture again, and prints what its scripts print.
+///
+/// # Errors
+/// When it is no capture of a run.
+pub(super) fn replay(args: &Args, header: &Header, tape: &Tape) -> Result<(), String> {
+    let config = args.config(&Interrupt::install(INTERRUPTED));
+    let outcome = batch::replay(&config, &args.batch(), header, tape)?;
+    super::test::print(&outcome, "the run has failed");
+    Ok(())
 }
 
 /// Writes the table; the line that says so.

@@ -1,50 +1,22 @@
 //! Runs with programs of others, captured and replayed.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use serde_json::json;
 use test_support::debug_client::Client;
-use test_support::process::{LIMIT, output_of, wait_within};
 
-use crate::server::{Server, python, run};
+use crate::server::{capture, python, replay, run};
 
 const SWANILDA: &str = env!("CARGO_BIN_EXE_swanilda");
-
-/// What a server has captured while clients in Python worked with it.
-fn capture(folder: &Path, python: &Path, clients: &str, scene: &[&str]) -> PathBuf {
-    let capture = folder.join("run.swc");
-    let name = capture.to_string_lossy();
-    let args = [&["--remote-api=0", "--capture", &name], scene].concat();
-    let mut server = Server::start_with(&args);
-    run(python, clients, &server, &[]);
-    let id = server.child.id().to_string();
-    let interrupted = Command::new("kill").args(["-INT", &id]).status();
-    assert!(interrupted.expect("there is kill").success());
-    wait_within(&mut server.child, LIMIT).expect("it ends");
-    capture
-}
-
-/// Replays a capture in a folder; what it prints on standard error.
-fn replay(capture: &Path, folder: &Path, args: &[&str]) -> String {
-    let mut replay = Command::new(SWANILDA);
-    let replay = replay.arg("replay").arg(capture).args(args);
-    let output = output_of(replay.current_dir(folder));
-    let status = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        status.ends_with("as in the capture, to the end\n"),
-        "{status}"
-    );
-    assert_eq!(output.status.code(), Some(0));
-    status
-}
 
 #[test]
 #[cfg(unix)]
 fn two_official_clients_that_step() {
     let Some(python) = python() else { return };
     let folder = tempfile::tempdir().expect("a folder");
-    let capture = capture(folder.path(), python, "zmq_capture.py", &[]);
+    let capture = capture(folder.path(), &[], |server| {
+        run(python, "zmq_capture.py", server, &[]);
+    });
     for threads in ["1", "2", "3"] {
         replay(&capture, Path::new("/"), &["--threads", threads]);
     }
@@ -60,7 +32,9 @@ fn a_race_of_two_clients_is_found_backwards() {
     let scene = place.join("race.lua");
     std::fs::write(&scene, include_str!("race.lua")).expect("our own folder is writable");
     let scene_name = scene.to_string_lossy().into_owned();
-    let captured = capture(&place, python, "zmq_race.py", &[&scene_name]);
+    let captured = capture(&place, &[&scene_name], |server| {
+        run(python, "zmq_race.py", server, &[]);
+    });
     let elsewhere = tempfile::tempdir().expect("a folder");
     let copy = elsewhere.path().join("copy.swc");
     std::fs::copy(&captured, &copy).expect("our own folder is writable");

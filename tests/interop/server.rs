@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 
-use test_support::process::run_bounded;
+use test_support::process::{LIMIT, output_of, run_bounded, wait_within};
 use test_support::skipped_outside_of_ci;
 
 /// `swanilda serve` at a port of the system's choice.
@@ -104,9 +104,48 @@ fn succeed(command: &mut Command) {
 }
 
 /// Runs one file against a server of its own; it says nothing when all is well.
+///
+/// The run is captured, and replayed without the client.
 pub fn check(file: &str, args: &[&str]) {
+    check_with(file, args, &[]);
+}
+
+/// The same; the server has further options.
+pub fn check_with(file: &str, args: &[&str], options: &[&str]) {
     let Some(python) = python() else { return };
-    run(python, file, &Server::start(), args);
+    let folder = tempfile::tempdir().expect("a folder");
+    let capture = capture(folder.path(), options, |server| {
+        run(python, file, server, args);
+    });
+    replay(&capture, Path::new("/"), &[]);
+}
+
+/// What a server has captured while somebody worked with it.
+pub fn capture(folder: &Path, options: &[&str], work: impl FnOnce(&Server)) -> PathBuf {
+    let capture = folder.join("run.swc");
+    let name = capture.to_string_lossy();
+    let args = [&["--remote-api=0", "--capture", &name], options].concat();
+    let mut server = Server::start_with(&args);
+    work(&server);
+    let id = server.child.id().to_string();
+    let interrupted = Command::new("kill").args(["-INT", &id]).status();
+    assert!(interrupted.expect("there is kill").success());
+    wait_within(&mut server.child, LIMIT).expect("it ends");
+    capture
+}
+
+/// Replays a capture in a folder; what it prints on standard error.
+pub fn replay(capture: &Path, folder: &Path, args: &[&str]) -> String {
+    let mut replay = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    let replay = replay.arg("replay").arg(capture).args(args);
+    let output = output_of(replay.current_dir(folder));
+    let status = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        status.ends_with("as in the capture, to the end\n"),
+        "{status}"
+    );
+    assert_eq!(output.status.code(), Some(0));
+    status
 }
 
 /// Runs one file against a server.

@@ -6,15 +6,24 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 
 ROOT = pathlib.Path(__file__).parents[2]
 LIMIT = 10  # seconds for anything
 
 
+REPLAY_LIMIT = 60  # seconds for a replay: it has no pauses, but much may have happened
+
+
 class Simulator:
+    """With statement; at its end the run is replayed, which has to be the same without the program that was tried with it."""
+
     def __init__(self, *args, command="serve"):
-        line = [sys.argv[1], command, "--json", *args]
+        self.folder = tempfile.TemporaryDirectory()
+        self.capture = os.path.join(self.folder.name, "run.swc")
+        captured = ["--capture", self.capture] if command in ("run", "serve", "view") and "--capture" not in args else []
+        line = [sys.argv[1], command, "--json", *captured, *args]
         self.process = subprocess.Popen(line, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=ROOT)
         self.lines = []
         self.more = threading.Condition()
@@ -29,9 +38,23 @@ class Simulator:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+    def __exit__(self, kind, *_):
+        self.process.send_signal(signal.SIGTERM)
+        try:
+            self.process.wait(2)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        with self.folder:
+            if kind is None and os.path.exists(self.capture):
+                self._replay()
+
+    def _replay(self):
+        line = [sys.argv[1], "replay", self.capture, "--quiet"]
+        environment = {"TZ": "Asia/Tokyo", "LC_ALL": "de_DE.UTF-8", "HOME": "/nowhere"}
+        replay = subprocess.run(line, cwd="/", env=environment, capture_output=True, timeout=REPLAY_LIMIT)
+        if replay.returncode != 0:
+            sys.exit(f"the replay: {replay.stderr.decode(errors='replace')[-2000:]}")
 
     def line(self, matches, what):
         """The first line of output that matches; taken out, so that it is found once."""

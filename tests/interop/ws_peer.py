@@ -20,8 +20,8 @@ class Control:
         self.client = connect(f"ws://127.0.0.1:{port}", max_size=None)
         return self
 
-    def __exit__(self, *_):
-        self.sim.__exit__()
+    def __exit__(self, *reason):
+        self.sim.__exit__(*reason)
 
     def __call__(self, code):
         self.client.send(code)

@@ -9,6 +9,16 @@ pub trait Recorded: Sized {
 
     /// The value whose bytes come next; None when they are none of this type.
     fn read(input: &mut Input<'_>) -> Option<Self>;
+
+    /// Appends the bytes of values, one after the other.
+    fn write_all(list: &[Self], out: &mut Vec<u8>) {
+        list.iter().for_each(|item| item.write(out));
+    }
+
+    /// The values whose bytes come next.
+    fn read_all(count: usize, input: &mut Input<'_>) -> Option<Vec<Self>> {
+        (0..count).map(|_| Self::read(input)).collect()
+    }
 }
 
 /// The bytes of an input that were not read yet.
@@ -140,6 +150,14 @@ impl Recorded for u8 {
     fn read(input: &mut Input<'_>) -> Option<Self> {
         input.byte()
     }
+
+    fn write_all(list: &[Self], out: &mut Vec<u8>) {
+        out.extend_from_slice(list);
+    }
+
+    fn read_all(count: usize, input: &mut Input<'_>) -> Option<Vec<Self>> {
+        Some(input.take(count)?.to_vec())
+    }
 }
 
 impl Recorded for usize {
@@ -198,7 +216,7 @@ impl Recorded for String {
 impl<T: Recorded> Recorded for Vec<T> {
     fn write(&self, out: &mut Vec<u8>) {
         write_number(self.len() as u64, out);
-        self.iter().for_each(|item| item.write(out));
+        T::write_all(self, out);
     }
 
     fn read(input: &mut Input<'_>) -> Option<Self> {
@@ -207,7 +225,7 @@ impl<T: Recorded> Recorded for Vec<T> {
         if count > input.0.len() {
             return None;
         }
-        (0..count).map(|_| T::read(input)).collect()
+        T::read_all(count, input)
     }
 }
 

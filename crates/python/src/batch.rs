@@ -102,8 +102,8 @@ impl Batch {
                 ..Config::new(1, allowance, Arc::default())
             };
             let mut line = None;
-            batch::run(&config, &self.batch, &[run], &mut |row, _| {
-                line = Some(row.line());
+            batch::run(&config, &self.batch, &[run], &mut |finished| {
+                line = Some(finished.row.line());
             })
             .map_err(Error::new_err)?;
             line.ok_or_else(|| Error::new_err("the run has no result."))

@@ -1,4 +1,4 @@
-//! Captures of failed tests: files from which `swanilda replay` runs a test again, with all that came from outside.
+//! Captures of failed tests and runs: files from which `swanilda replay` runs one again, with all that came from outside.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,8 @@ pub struct Captures {
 const FILE: &str = "test file";
 const TESTS: &str = "tests";
 
-/// A simulator of tests that is being captured. What was captured is removed when this is dropped, unless a test has failed.
+/// A simulator of tests, or the one of a run, that is being captured. What was captured is removed when this is dropped, unless something has
+/// failed.
 pub(super) struct TestCapture {
     tape: Tape,
     file: NamedTempFile,
@@ -44,13 +45,23 @@ impl TestCapture {
         file: &Path,
         tests: &[Arc<TestCase>],
     ) -> io::Result<Self> {
+        let tests: Vec<String> = tests.iter().map(|test| numbers(test)).collect();
+        let file = file.to_string_lossy().into_owned();
+        Self::of_facts(captures, [(FILE, file), (TESTS, tests.join(","))])
+    }
+
+    /// Of the simulator that these facts are about.
+    ///
+    /// # Errors
+    /// When there is no place for it.
+    pub(super) fn of_facts<const N: usize>(
+        captures: &Captures,
+        facts: [(&str, String); N],
+    ) -> io::Result<Self> {
         let place = NamedTempFile::new()?;
         let mut header = captures.header.clone();
-        let tests: Vec<String> = tests.iter().map(|test| numbers(test)).collect();
-        header.facts.extend([
-            (FILE.to_owned(), file.to_string_lossy().into_owned()),
-            (TESTS.to_owned(), tests.join(",")),
-        ]);
+        let facts = facts.map(|(name, value)| (name.to_owned(), value));
+        header.facts.extend(facts);
         Ok(Self {
             tape: Tape::capturing(place.path(), &header)?,
             file: place,
@@ -101,17 +112,19 @@ pub(super) fn file_name(test: &TestCase) -> String {
     plain.take(MAX_LENGTH).collect::<String>() + ".swc"
 }
 
+/// What a header says about that.
+pub(super) fn fact<'a>(header: &'a Header, name: &str) -> Option<&'a str> {
+    let found = header.facts.iter().find(|(fact, _)| fact == name);
+    found.map(|(_, value)| value.as_str())
+}
+
 /// Runs the tests of a capture again, on its tape. Their outcomes.
 ///
 /// # Errors
 /// When it is no capture of tests; in words.
 pub fn replay(config: &Config, header: &Header, tape: &Tape) -> Result<Vec<Outcome>, String> {
-    let fact = |name: &str| {
-        let found = header.facts.iter().find(|(fact, _)| fact == name);
-        found.map(|(_, value)| value.as_str())
-    };
-    let file = PathBuf::from(fact(FILE).ok_or("it is no capture of a test")?);
-    let tests = fact(TESTS).unwrap_or_default().split(',');
+    let file = PathBuf::from(fact(header, FILE).ok_or("it is no capture of a test")?);
+    let tests = fact(header, TESTS).unwrap_or_default().split(',');
     let tests: Option<Vec<_>> = tests.map(|numbers| test_of(&file, numbers)).collect();
     let tests = tests.ok_or("its tests have no numbers")?;
     let seed = tests.first().map_or(config.seed, |test| test.seed);

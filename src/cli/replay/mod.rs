@@ -108,6 +108,10 @@ impl Args {
                 super::test::replay(&test, header, tape)?;
                 Ok(ExitCode::SUCCESS)
             }
+            Command::Batch(batch) => {
+                super::batch::replay(&batch, header, tape)?;
+                Ok(ExitCode::SUCCESS)
+            }
             _ => return Err("it is the capture of a command that runs nothing".into()),
         })
     }

@@ -43,8 +43,8 @@ pub(in crate::cli) fn open(
             view.setup.for_replay(threads);
             view.played(&tape, interrupt, build)?
         }
-        Command::Test(_) => {
-            let reason = "the capture of a test runs from its beginning to its end only: see `swanilda replay`";
+        Command::Test(_) | Command::Batch(_) => {
+            let reason = "the capture of a test or a batch runs from its beginning to its end only: see `swanilda replay`";
             return Err(unreadable(reason.into()));
         }
         _ => {

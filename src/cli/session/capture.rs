@@ -7,6 +7,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, CommandFactory};
 
 use crate::cli::{Cli, complain};
+use testing::Captures;
 
 /// The option about captures.
 #[derive(clap::Args)]
@@ -59,11 +60,25 @@ pub(in crate::cli) fn finish(tape: &Tape) {
     }
 }
 
+/// Captures of what fails, in a folder.
+///
+/// # Errors
+/// As [`header`].
+pub(in crate::cli) fn captures(folder: Option<&PathBuf>) -> Result<Option<Captures>, String> {
+    let of_folder = |folder: &PathBuf| {
+        Ok(Captures {
+            folder: folder.clone(),
+            header: header()?,
+        })
+    };
+    folder.map(of_folder).transpose()
+}
+
 /// How this process was started.
 ///
 /// # Errors
 /// When an argument is no text.
-pub(in crate::cli) fn header() -> Result<Header, String> {
+fn header() -> Result<Header, String> {
     let args = std::env::args_os().skip(1).map(|arg| {
         arg.into_string()
             .map_err(|_| "arguments that are no UTF-8 cannot be captured".to_owned())

@@ -6,14 +6,14 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::capture::header;
+use super::capture::captures;
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::resources::ResourceArgs;
 use super::setup::seconds;
 use capture::{Header, Tape};
 use simulator::Options;
-use testing::{self, Allowance, Captures, Config, Summary};
+use testing::{self, Allowance, Config, Outcome, Summary};
 
 mod coverage;
 mod failure;
@@ -117,7 +117,7 @@ pub(super) fn test(args: &Args) -> ExitCode {
     }
     let interrupt = Interrupt::install(INTERRUPTED);
     let mut config = args.config(&interrupt);
-    match args.captures() {
+    match captures(args.capture_failures.as_ref()) {
         Ok(captures) => config.captures = captures,
         Err(reason) => return refuse(&reason),
     }
@@ -158,14 +158,19 @@ pub(super) fn replay(args: &Args, header: &Header, tape: &Tape) -> Result<(), St
     let mut config = args.config(&Interrupt::install(INTERRUPTED));
     (config.record_failures, config.coverage) = (None, None);
     for outcome in testing::replay(&config, header, tape)? {
-        for line in &outcome.console {
-            super::say(format!("{}\n", line.text).as_bytes());
-        }
-        if outcome.is_bad() {
-            super::complain(&format!("the test has failed: {}", outcome.message));
-        }
+        print(&outcome, "the test has failed");
     }
     Ok(())
+}
+
+/// Prints what scripts have printed, and why something has failed.
+pub(super) fn print(outcome: &Outcome, failed: &str) {
+    for line in &outcome.console {
+        super::say(format!("{}\n", line.text).as_bytes());
+    }
+    if outcome.is_bad() {
+        super::complain(&format!("{failed}: {}", outcome.message));
+    }
 }
 
 fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, String> {
@@ -191,16 +196,6 @@ fn init() -> ExitCode {
 }
 
 impl Args {
-    fn captures(&self) -> Result<Option<Captures>, String> {
-        let capture = |folder: &PathBuf| {
-            Ok(Captures {
-                folder: folder.clone(),
-                header: header()?,
-            })
-        };
-        self.capture_failures.as_ref().map(capture).transpose()
-    }
-
     fn config(&self, interrupt: &Interrupt) -> Config {
         Config {
             paths: self.paths.clone(),

@@ -1,4 +1,4 @@
-//! Tests of users that fail: their captures run again.
+//! Tests of users and runs of a batch that fail: their captures run again.
 
 use std::fs;
 
@@ -64,4 +64,60 @@ fn a_failed_test_leaves_a_capture_that_runs_again() {
         "{said}"
     );
     assert!(said.ends_with("as in the capture, to the end\n"), "{said}");
+}
+
+const RUN: &str = "
+local sim = require 'sim'
+local batch = require 'swanilda.batch'
+function sysCall_sensing()
+    print(batch.param('kp'), math.random(1000000), sim.getSystemTime())
+    if batch.param('kp') == 2 and sim.getSimulationTime() > 0.2 then error('too much') end
+end
+";
+
+#[test]
+fn a_failed_run_of_a_batch_leaves_a_capture_that_runs_again() {
+    let bench = Bench::new(&[("scene.lua", RUN)]);
+    let args = [
+        "batch",
+        "scene.lua",
+        "--sweep",
+        "kp=1,2",
+        "--seeds",
+        "7,8",
+        "--time",
+        "0.5",
+        "--capture-failures=captures",
+    ];
+    let first = output_of(&mut bench.swanilda(&args));
+    let said = text(&first.stderr);
+    assert_eq!(first.status.code(), Some(1), "{said}");
+    let folder = bench.scene.path().join("captures");
+    let mut captures: Vec<_> = fs::read_dir(&folder)
+        .expect("runs have failed")
+        .map(|entry| entry.expect("it can be read").path())
+        .collect();
+    captures.sort();
+    assert_eq!(captures.len(), 2, "only those with kp = 2: {captures:?}");
+    for capture in &captures {
+        let name = capture
+            .file_name()
+            .expect("it has a name")
+            .to_string_lossy();
+        assert!(said.contains(&*name), "{said}");
+    }
+    let moved = bench.captures.path().join("run.swc");
+    fs::copy(&captures[0], &moved).expect("it can be copied");
+    let captures = bench.without_scene();
+    let again = [(); 2].map(|()| replay(&captures.path().join("run.swc"), &[]));
+    for output in &again {
+        let said = text(&output.stderr);
+        assert!(
+            said.contains("too much") && said.ends_with("to the end\n"),
+            "{said}"
+        );
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert_eq!(output.stdout, again[0].stdout);
+    }
+    assert!(text(&again[0].stdout).starts_with("2, "));
 }

@@ -7,13 +7,17 @@ mod simulate;
 mod store;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use capture::{Header, Tape};
 
 pub(super) use simulate::{Job, simulate};
 pub use store::{Store, StoreError};
 
 use super::Config;
+use super::captures::fact;
 use super::case::{Outcome, Status, TestCase};
 use super::workers::{Message, Task, work};
 
@@ -88,7 +92,18 @@ impl Batch {
     }
 }
 
-/// Runs what the store has no row of, as `config` says, and hands over each row, with the names of the parameters that its run has read.
+/// A run that is over.
+#[derive(Debug)]
+pub struct Finished<'a> {
+    /// Its row.
+    pub row: Row,
+    /// The names of the parameters that it has read.
+    pub params_read: &'a BTreeSet<String>,
+    /// The capture of a run that has failed, where that was asked for.
+    pub capture: Option<&'a Path>,
+}
+
+/// Runs what the store has no row of, as `config` says, and hands over each run that is over.
 ///
 /// # Errors
 /// When the scene cannot be read, in words.
@@ -96,32 +111,55 @@ pub fn run(
     config: &Config,
     batch: &Batch,
     runs: &[Run],
-    done: &mut dyn FnMut(Row, &BTreeSet<String>),
+    done: &mut dyn FnMut(Finished<'_>),
 ) -> Result<(), String> {
-    let scene = Arc::new(simulate::Scene::read(&batch.scene)?);
-    let task = |run: &Run| {
-        Task::Simulate(Job {
-            case: Arc::new(case(batch, run)),
-            scene: Arc::clone(&scene),
-            params: batch
-                .fixed
-                .clone()
-                .into_iter()
-                .chain(run.params.iter().cloned())
-                .collect(),
-            time: batch.time,
-        })
-    };
+    let scene = Arc::new(simulate::Scene::read(&batch.scene, &Tape::default())?);
+    let task = |run: &Run| Task::Simulate(job(batch, run, &scene));
     let by_number: BTreeMap<usize, &Run> = runs.iter().map(|run| (run.number, run)).collect();
     work(config, runs.iter().map(task).collect(), &mut |message| {
         if let Message::Finished(outcome) = message
             && let Some(run) = by_number.get(&outcome.test.index)
         {
-            done(row(run, &outcome), &outcome.params_read);
+            done(Finished {
+                row: row(run, &outcome),
+                params_read: &outcome.params_read,
+                capture: outcome.capture.as_deref(),
+            });
         }
         true
     });
     Ok(())
+}
+
+/// Makes the run of a capture again, on its tape. Its outcome.
+///
+/// # Errors
+/// When it is no capture of a run of this batch, or differs in what it reads first; in words.
+pub fn replay(
+    config: &Config,
+    batch: &Batch,
+    header: &Header,
+    tape: &Tape,
+) -> Result<Outcome, String> {
+    let number = fact(header, simulate::RUN).and_then(|number| number.parse::<usize>().ok());
+    let runs = batch.runs();
+    let run = runs.iter().find(|run| Some(run.number) == number);
+    let run = run.ok_or("it is no capture of a run")?;
+    let place = fact(header, simulate::PLACE).ok_or("it does not say where its scene was")?;
+    let scene = Arc::new(simulate::Scene::read(Path::new(place), tape)?);
+    let stop = Arc::new(AtomicBool::new(false));
+    let job = job(batch, run, &scene);
+    Ok(simulate::simulate_on(config, &job, &stop, tape))
+}
+
+fn job(batch: &Batch, run: &Run, scene: &Arc<simulate::Scene>) -> Job {
+    let fixed = batch.fixed.clone().into_iter();
+    Job {
+        case: Arc::new(case(batch, run)),
+        scene: Arc::clone(scene),
+        params: fixed.chain(run.params.iter().cloned()).collect(),
+        time: batch.time,
+    }
 }
 
 /// The results among the named parameters at the end of a run, by their names without `result.`.
