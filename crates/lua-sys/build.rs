@@ -12,6 +12,9 @@ const FUNCTIONS: [&str; 14] = [
     "tan", "tanh",
 ];
 
+/// Has Lua open and close files by functions of ours; relative to where build scripts run.
+const FILES: &str = " -include src/files.h";
+
 #[expect(unsafe_code, reason = "the environment of the compiler")]
 #[allow(
     clippy::disallowed_methods,
@@ -19,11 +22,19 @@ const FUNCTIONS: [&str; 14] = [
 )]
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/files.h");
     let target = env::var("TARGET").expect("Cargo sets it");
     let variable = format!("CFLAGS_{}", target.replace(['-', '.'], "_"));
-    let functions = FUNCTIONS.map(|name| definition(name, target.ends_with("msvc")));
+    let is_microsoft = target.ends_with("msvc");
+    let functions = FUNCTIONS.map(|name| definition(name, is_microsoft));
+    // There are snapshots on systems like Unix, which ask for open files.
+    let files = if target.contains("windows") {
+        ""
+    } else {
+        FILES
+    };
     let given = env::var(&variable).unwrap_or_default();
-    let flags = format!("{given} -D{SEED}{}", functions.concat());
+    let flags = format!("{given} -D{SEED}{}{files}", functions.concat());
     // SAFETY: this program has no other thread. The crate that compiles Lua takes flags from the environment only.
     unsafe { env::set_var(&variable, flags) };
     let lua = lua_src::Build::new().build(lua_src::Lua54);

@@ -105,3 +105,86 @@ fn assert_same(first: &str, second: &str, scene: &Path) {
         scene.display()
     );
 }
+
+/// Opens something when it starts, and closes what `close` says.
+fn refusal(open: &str, close: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("notes.txt");
+    std::fs::write(&path, "one\ntwo\n").expect("our own folder is writable");
+    let mut sim = Simulator::new(Options::default());
+    let code = format!(
+        "path = '{}'\nfunction open() {open} end\nfunction close() {close} end",
+        path.display()
+    );
+    let script = sim
+        .add_script(ScriptKind::Customization, "", code.as_bytes())
+        .expect("the script loads");
+    let before = sim.snapshot().expect("nothing is open");
+    sim.call(&script, "open", &[]).expect("it opens");
+    let refused = sim.snapshot().map(drop).expect_err("something is open");
+    assert_eq!(sim.restore(&before), Err(refused.clone()));
+    sim.call(&script, "close", &[]).expect("it closes");
+    sim.snapshot().expect("nothing is open any more");
+    sim.restore(&before).expect("nothing is open any more");
+    sim.call(&script, "open", &[]).expect("it opens");
+    drop(sim);
+    refused
+        .to_string()
+        .replace(&path.display().to_string(), "PATH")
+}
+
+/// Files of scripts are no memory: whoever has one open hears of it.
+#[test]
+fn files_that_are_open_are_named() {
+    let file = "a snapshot does not reach the file PATH: close it first.";
+    let cases = [
+        ("f = io.open(path)", "f:close()", file),
+        ("f = io.open(path, 'a+b')", "io.close(f)", file),
+        ("io.open(path)", "collectgarbage()", file),
+        ("io.output(path)", "io.close() io.output(io.stdout)", file),
+        (
+            "io.input(path)",
+            "io.input():close() io.input(io.stdin)",
+            file,
+        ),
+        ("lines = io.lines(path) lines()", "lines() lines()", file),
+        (
+            "f = io.tmpfile()",
+            "f:close()",
+            "a snapshot does not reach a temporary file: close it first.",
+        ),
+        (
+            "f = io.popen('cat', 'w')",
+            "f:close()",
+            "a snapshot does not reach the program cat: close it first.",
+        ),
+        (
+            "f, g = io.open(path), io.tmpfile()",
+            "f:close() g:close()",
+            "a snapshot does not reach the file PATH, a temporary file: close it first.",
+        ),
+    ];
+    for (open, close, expected) in cases {
+        assert_eq!(refusal(open, close), expected, "{open}");
+    }
+}
+
+/// Files that a script has closed, or could not open, are nobody's business, nor are those that Lua opens itself.
+#[test]
+fn files_that_are_closed_are_not_named() {
+    let mut sim = Simulator::new(Options::default());
+    let code = b"local path = os.tmpname()
+        for i = 1, 3 do
+            local f <close> = assert(io.open(path, 'w'))
+            f:write(i)
+        end
+        for line in io.lines(path) do assert(line == '3') end
+        local p = io.popen('echo x') assert(p:read('a') == 'x\\n') p:close()
+        assert(not io.open('/nowhere/at/all') and not pcall(io.lines, '/nowhere/at/all'))
+        assert(not loadfile('/nowhere/at/all') and loadfile(path) == nil)
+        os.remove(path)";
+    sim.add_script(ScriptKind::Sandbox, "files", code)
+        .expect("the script runs");
+    assert_eq!(sim.errors(), 0);
+    sim.snapshot().expect("nothing is open");
+}

@@ -36,7 +36,7 @@ impl Resource {
 impl Drop for Resource {
     fn drop(&mut self) {
         if let (Some(entry), Ok(mut open)) = (self.entry, OPEN.lock()) {
-            outside(|| open.1.remove(&entry));
+            outside(|| drop(open.1.remove(&entry)));
         }
     }
 }

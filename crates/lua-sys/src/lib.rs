@@ -6,8 +6,13 @@
 //!
 //! The C library's functions are not the same in glibc, musl and macOS, and glibc chooses among several by the processor. Those of
 //! `libm` are portable Rust without fused operations, so that they have the same bits everywhere.
+//!
+//! Files that Lua opens are named by [`heap::resource`] until it closes them.
 
 #![expect(unsafe_code, reason = "functions for C")]
+
+#[cfg(unix)]
+mod files;
 
 // Cargo is to link the library with it.
 use mlua_sys as _;
