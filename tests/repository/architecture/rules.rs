@@ -388,6 +388,14 @@ pub const INPUTS: &[(&str, &str)] = &[
         "whether ports are free",
     ),
     (
+        "crates/modules-ros/src/sim_ros/network.rs",
+        "messages, parameters and services of ROS 1",
+    ),
+    (
+        "crates/modules-ros/src/sim_ros/node.rs",
+        "the time of ROS 1",
+    ),
+    (
         "crates/modules-ros/src/sim_ros2/endpoint.rs",
         "messages of ROS 2",
     ),

@@ -68,7 +68,7 @@ fn image_transport_publish(
     #[name("frame_id")] frame_id: String,
 ) -> Result<()> {
     let publisher = get(cx, &publisher_handle, publisher)?;
-    let stamp = Data::Float(node(cx).time());
+    let stamp = Data::Float(node(cx).time(cx.permissions().tape()));
     publisher.publish(&ros_images::message(
         &data.0, width, height, stamp, &frame_id,
     )?)

@@ -4,6 +4,7 @@
 //! needs it, and needs a master then. Callbacks run at the start of each iteration of the loop, or while a script waits for an answer.
 
 mod images;
+mod network;
 mod node;
 mod parameters;
 mod services;
@@ -30,6 +31,6 @@ pub static MODULE: Module = Module {
     ..Module::new("simROS")
 };
 
-fn failed(error: &ros1::Error) -> ApiError {
+fn failed(error: &network::Failure) -> ApiError {
     ApiError::Other(format!("ROS: {error}"))
 }

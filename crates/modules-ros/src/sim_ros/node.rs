@@ -5,11 +5,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use api_macro::api;
+use capture::Tape;
 use ros_interfaces::{
     Catalogue, Generation, InterfaceError, InterfaceKind, Layout, TypeName, Value,
 };
-use ros1::{MessageType, NodeNetwork, NodeSettings, ServiceType, Subscriber, XmlRpcValue};
+use ros1::{MessageType, NodeNetwork, NodeSettings, ServiceType};
 
+use super::network::{Network, Parameter, Subscriber};
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
@@ -32,7 +34,7 @@ pub(super) struct Node {
 
 /// The node in its network.
 pub(super) struct Running {
-    pub(super) node: ros1::Node,
+    pub(super) node: Network,
     /// Where simulated time comes from, if the parameter `/use_sim_time` says so.
     clock: Option<Clock>,
 }
@@ -79,10 +81,11 @@ impl Node {
     }
 
     /// Simulated time, or the system's.
-    pub(super) fn time(&self) -> f64 {
+    pub(super) fn time(&self, tape: &Tape) -> f64 {
         let running = self.running.borrow();
         let clock = running.as_ref().and_then(|running| running.clock.as_ref());
-        clock.map_or_else(wall_clock::unix_seconds, |clock| clock.seconds.get())
+        let system = || tape.input("the time of ROS", wall_clock::unix_seconds);
+        clock.map_or_else(|| system().unwrap_or_default(), |clock| clock.seconds.get())
     }
 }
 
@@ -115,7 +118,7 @@ pub(super) fn start_of_iteration(host: &Host) {
 #[api("simROS.getTime")]
 fn get_time(cx: &mut Cx, #[default(0)] _flag: i64) -> Result<f64> {
     running(cx)?;
-    Ok(node(cx).time())
+    Ok(node(cx).time(cx.permissions().tape()))
 }
 
 pub(super) fn node(cx: &Cx) -> Rc<Node> {
@@ -132,14 +135,14 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
         return Ok(running.clone());
     }
     let settings = settings(cx)?;
-    cx.permissions().tape().lacks("what comes by simROS");
-    let running = match ros1::Node::new(&settings) {
-        Err(error @ ros1::Error::Master { .. }) if !cx.options().ros.needs_master => {
+    let tape = cx.permissions().tape();
+    let running = match Network::new(&settings, tape) {
+        Err(error) if error.is_no_master() && !cx.options().ros.needs_master => {
             let warning = format!(
                 "ROS: {error}. Functions of simROS do nothing in this run; --ros-needs-master makes that an error"
             );
             cx.env().log(verbosity::SCRIPT_WARNINGS, &warning);
-            ros1::Node::without_master(&settings)
+            Network::without_master(&settings, tape)
         }
         made => made,
     };
@@ -178,11 +181,11 @@ fn settings(cx: &Cx) -> Result<NodeSettings> {
     })
 }
 
-fn clock(cx: &Cx, running: &ros1::Node) -> Result<Option<Clock>> {
+fn clock(cx: &Cx, running: &Network) -> Result<Option<Clock>> {
     let parameter = running
         .parameter("/use_sim_time")
         .map_err(|error| failed(&error))?;
-    if parameter != Some(XmlRpcValue::Bool(true)) {
+    if parameter != Some(Parameter::Bool(true)) {
         return Ok(None);
     }
     let layout = message(cx, "rosgraph_msgs/Clock")?;

@@ -4,6 +4,7 @@ use api_macro::api;
 use ros1::XmlRpcValue;
 use scene::numbers;
 
+use super::network::Parameter;
 use super::node::running;
 use super::{ApiFn, Cx, Result, failed, functions};
 
@@ -25,7 +26,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 fn read<T>(
     cx: &Cx,
     name: &str,
-    value: impl Fn(&XmlRpcValue) -> Option<T>,
+    value: impl Fn(&Parameter) -> Option<T>,
     otherwise: T,
 ) -> Result<(bool, T)> {
     let parameter = running(cx)?
@@ -55,8 +56,8 @@ fn get_param_string(
     name: String,
     #[default(String::new())] default_value: String,
 ) -> Result<(bool, String)> {
-    let text = |value: &XmlRpcValue| match value {
-        XmlRpcValue::String(value) => Some(value.clone()),
+    let text = |value: &Parameter| match value {
+        Parameter::Text(value) => Some(value.clone()),
         _ => None,
     };
     read(cx, &name, text, default_value)
@@ -74,9 +75,9 @@ fn get_param_int(
     name: String,
     #[default(0)] default_value: i64,
 ) -> Result<(bool, i64)> {
-    let integer = |value: &XmlRpcValue| match value {
-        XmlRpcValue::Int(value) => Some(i64::from(*value)),
-        XmlRpcValue::Double(value) => Some(numbers::truncated(value.round())),
+    let integer = |value: &Parameter| match value {
+        Parameter::Int(value) => Some(i64::from(*value)),
+        Parameter::Double(value) => Some(numbers::truncated(value.round())),
         _ => None,
     };
     read(cx, &name, integer, default_value)
@@ -94,9 +95,9 @@ fn get_param_double(
     name: String,
     #[default(0.0)] default_value: f64,
 ) -> Result<(bool, f64)> {
-    let number = |value: &XmlRpcValue| match value {
-        XmlRpcValue::Int(value) => Some(f64::from(*value)),
-        XmlRpcValue::Double(value) => Some(*value),
+    let number = |value: &Parameter| match value {
+        Parameter::Int(value) => Some(f64::from(*value)),
+        Parameter::Double(value) => Some(*value),
         _ => None,
     };
     read(cx, &name, number, default_value)
@@ -114,8 +115,8 @@ fn get_param_bool(
     name: String,
     #[default(false)] default_value: bool,
 ) -> Result<(bool, bool)> {
-    let truth = |value: &XmlRpcValue| match value {
-        XmlRpcValue::Bool(value) => Some(*value),
+    let truth = |value: &Parameter| match value {
+        Parameter::Bool(value) => Some(*value),
         _ => None,
     };
     read(cx, &name, truth, default_value)
@@ -175,8 +176,8 @@ fn has_param(cx: &mut Cx, name: String) -> Result<bool> {
 #[api("simROS.deleteParam")]
 fn delete_param(cx: &mut Cx, name: String) -> Result<()> {
     match running(cx)?.node.delete_parameter(&name) {
-        Err(ros1::Error::Refused { .. }) | Ok(()) => Ok(()),
-        Err(error) => Err(failed(&error)),
+        Err(error) if !error.is_refusal() => Err(failed(&error)),
+        _ => Ok(()),
     }
 }
 

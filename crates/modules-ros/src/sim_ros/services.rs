@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use api_macro::api;
 use ros_interfaces::{Layout, Record};
-use ros1::{ServiceServer, ServiceType};
+use ros1::ServiceType;
 
+use super::network::Server;
 use super::node::{Entity, add, get, node, running, service, service_type, shut_down};
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
@@ -34,7 +35,7 @@ pub(super) struct Client {
 
 /// A server with a script's function.
 pub(super) struct Service {
-    server: ServiceServer,
+    server: Server,
     layouts: [Arc<Layout>; 2],
     callback: ScriptCallback,
     style: Cell<Style>,

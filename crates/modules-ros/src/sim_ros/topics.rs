@@ -9,7 +9,7 @@ use ros_interfaces::{Layout, Record};
 
 use super::node::{Entity, add, get, message, message_type, node, queue_size, running, shut_down};
 use super::ros_values::{self, Style};
-use super::{ApiError, ApiFn, Cx, Result, failed, functions, images};
+use super::{ApiError, ApiFn, Cx, Result, failed, functions, images, network};
 use scene::Data;
 use script::{ScriptCallback, ScriptFunction, Table};
 
@@ -28,7 +28,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// What writes a topic.
 pub(super) struct Publisher {
     layout: Arc<Layout>,
-    publisher: ros1::Publisher,
+    publisher: network::Publisher,
     style: Cell<Style>,
     pub(super) is_image: bool,
 }
@@ -36,7 +36,7 @@ pub(super) struct Publisher {
 /// What reads a topic.
 pub(super) struct Subscription {
     layout: Arc<Layout>,
-    subscriber: ros1::Subscriber,
+    subscriber: network::Subscriber,
     style: Cell<Style>,
     callback: ScriptCallback,
     pub(super) is_image: bool,
