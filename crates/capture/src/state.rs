@@ -186,7 +186,7 @@ impl Replaying {
             write_number(key, &mut bytes);
             bytes
         };
-        let is_it = match self.look()? {
+        let is_it = match self.peek()? {
             Record::Input { kind: found, value } => {
                 let (found, has_key) = (*found, value.starts_with(&expected));
                 has_key && self.is(found, kind)
@@ -202,7 +202,7 @@ impl Replaying {
 
     /// Whether the next record is an input of that kind.
     pub(crate) fn next_is(&mut self, kind: &str) -> bool {
-        match self.look() {
+        match self.peek() {
             Some(&Record::Input { kind: found, .. }) => self.is(found, kind),
             _ => false,
         }
@@ -291,12 +291,12 @@ impl Replaying {
     }
 
     fn take_next(&mut self) -> Option<Record> {
-        self.look()?;
+        self.peek()?;
         self.next.take()
     }
 
     /// The next thing that happened. None where the capture ends, or after the run has differed.
-    fn look(&mut self) -> Option<&Record> {
+    fn peek(&mut self) -> Option<&Record> {
         if self.verdict.is_some() {
             return None;
         }

@@ -218,15 +218,15 @@ impl Tape {
         &self,
         kind: &str,
         key: u64,
-        look: impl FnOnce() -> Option<T>,
+        check: impl FnOnce() -> Option<T>,
     ) -> Option<T> {
         if self.0.is_none() {
-            return look();
+            return check();
         }
         match self.replayed(|replaying| Some(replaying.take_if(kind, key))) {
             Some(found) => found.flatten(),
             None => {
-                let found = self.within(look)?;
+                let found = self.within(check)?;
                 let keyed = (key, found);
                 self.captured(|capturing| capturing.add_input(kind, &keyed));
                 Some(keyed.1)
@@ -435,7 +435,7 @@ impl Tape {
         }
     }
 
-    /// What a replay does; None for other tapes. Where the capture has nothing for it, the end is told.
+    /// What a replay does; None for other tapes. Where the capture has nothing for it, the end is reported.
     fn replayed<T>(&self, act: impl FnOnce(&mut Replaying) -> Option<T>) -> Option<Option<T>> {
         let mut state = self.lock()?;
         let is_suspended = state.is_suspended;

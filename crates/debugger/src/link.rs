@@ -39,7 +39,7 @@ pub enum Incoming {
 pub struct Link {
     incoming: Receiver<Incoming>,
     unread: Arc<AtomicUsize>,
-    insists: Arc<AtomicBool>,
+    forces_end: Arc<AtomicBool>,
     outgoing: SyncSender<Outgoing>,
     finished: Receiver<()>,
 }
@@ -102,17 +102,17 @@ impl Link {
             .name("debugger, output".into())
             .spawn(move || write_all(&to_client, &finish))?;
         let unread = Arc::<AtomicUsize>::default();
-        let insists = Arc::<AtomicBool>::default();
+        let forces_end = Arc::<AtomicBool>::default();
         let reader = Reader {
             to_simulator,
             unread: Arc::clone(&unread),
-            insists: Arc::clone(&insists),
+            forces_end: Arc::clone(&forces_end),
             wake,
         };
         let link = Self {
             incoming,
             unread,
-            insists,
+            forces_end,
             outgoing,
             finished,
         };
@@ -120,8 +120,8 @@ impl Link {
     }
 
     /// From now on code that goes on for long after the client wants the end is asked again and again.
-    pub(crate) fn insist_on_end(&self) {
-        self.insists.store(true, Ordering::Release);
+    pub(crate) fn force_end_on_request(&self) {
+        self.forces_end.store(true, Ordering::Release);
     }
 
     /// What has come, if anything has.
@@ -180,7 +180,7 @@ fn write_all(messages: &Receiver<Outgoing>, finish: &Sender<()>) {
 struct Reader {
     to_simulator: Sender<Incoming>,
     unread: Arc<AtomicUsize>,
-    insists: Arc<AtomicBool>,
+    forces_end: Arc<AtomicBool>,
     wake: Wake,
 }
 
@@ -218,15 +218,15 @@ impl Reader {
                 std::thread::sleep(REQUEST_TIMEOUT);
                 (self.wake)();
             }
-            "terminate" | "restart" | "disconnect" if self.insists.load(Ordering::Acquire) => {
-                self.insist();
+            "terminate" | "restart" | "disconnect" if self.forces_end.load(Ordering::Acquire) => {
+                self.force_end();
             }
             _ => {}
         }
     }
 
     /// Code that goes on for long after the end is asked again and again.
-    fn insist(&self) {
+    fn force_end(&self) {
         let wake = Arc::clone(&self.wake);
         let ask = move || {
             for _ in 0..MAX_ASKED {

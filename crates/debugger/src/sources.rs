@@ -64,7 +64,7 @@ impl Sources {
         is_new
     }
 
-    /// A text, as clients are told of it.
+    /// A text, as clients see it.
     pub fn describe(&self, text: &LoadedText) -> Value {
         let key = SourceKey::of(text);
         let place = self.entries.iter().position(|entry| entry.key == key);

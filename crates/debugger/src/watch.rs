@@ -128,7 +128,7 @@ impl Debugger for Watch {
         }
     }
 
-    fn look(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
+    fn poll(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
         false
     }
 }

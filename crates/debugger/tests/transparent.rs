@@ -24,11 +24,11 @@ const DIFFERENT: &[&str] = &[
 
 /// Arms every trap, reads the variables, and goes on.
 #[derive(Default)]
-struct Looker {
+struct Inspector {
     lines: Cell<u64>,
 }
 
-impl Debugger for Looker {
+impl Debugger for Inspector {
     fn text_loaded(&self, _: &Rc<Sim>, script: &Rc<Script>, _: &Rc<LoadedText>) {
         if let Some(runtime) = script.current_runtime()
             && let Some(debuggee) = runtime.interpreter.debuggee()
@@ -59,7 +59,7 @@ impl Debugger for Looker {
 
     fn scene_changed(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) {}
 
-    fn look(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
+    fn poll(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
         false
     }
 }
@@ -100,7 +100,7 @@ fn cases() -> Vec<PathBuf> {
 }
 
 /// What a case prints, and how many lines traps have seen.
-fn run(case: &Path, debugger: Option<Rc<Looker>>) -> String {
+fn run(case: &Path, debugger: Option<Rc<Inspector>>) -> String {
     let text = std::fs::read_to_string(case).unwrap_or_default();
     let header = |key: &str| {
         let start = format!("-- {key}: ");
@@ -153,9 +153,9 @@ fn difference(case: &Path) -> Option<String> {
     let case = case.to_owned();
     let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE);
     let compare = move || {
-        let looker = Rc::<Looker>::default();
-        let (plain, watched) = (run(&case, None), run(&case, Some(Rc::clone(&looker))));
-        if looker.lines.get() == 0 {
+        let inspector = Rc::<Inspector>::default();
+        let (plain, watched) = (run(&case, None), run(&case, Some(Rc::clone(&inspector))));
+        if inspector.lines.get() == 0 {
             return Some(format!("{}: no trap was reached", case.display()));
         }
         let differ = plain.lines().zip(watched.lines()).find(|(a, b)| a != b);

@@ -38,7 +38,7 @@ impl Fallen {
     }
 
     /// What to say after a step, if one has fallen; nothing more is said after that.
-    pub(in crate::cli) fn look(&mut self, sim: &Simulator) -> Option<String> {
+    pub(in crate::cli) fn observe(&mut self, sim: &Simulator) -> Option<String> {
         let scene = sim.scene();
         let leans = |base: &&Base| {
             let pose = scene.world_pose(base.handle);

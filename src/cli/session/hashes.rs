@@ -91,9 +91,9 @@ impl Hashes {
         self.end.is_some()
     }
 
-    /// Looks at the state after a step. The end of a simulation restores what was before it, which is no step. The last steps of a run
+    /// Writes or compares the state after a step. The end of a simulation restores what was before it, which is no step. The last steps of a run
     /// that is as long as was asked for, `at_end`, are not compared: a longer one does not stop there.
-    pub(in crate::cli) fn look(&mut self, sim: &Simulator, at_end: bool) {
+    pub(in crate::cli) fn observe(&mut self, sim: &Simulator, at_end: bool) {
         if self.end.is_some() || sim.state() == SimulationState::Stopped {
             return;
         }

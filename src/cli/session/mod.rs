@@ -90,9 +90,9 @@ impl RunObserver for Session<'_> {
             rest(sim);
         }
         if stepped {
-            self.hashes.look(sim, self.progress.is_at_end(sim));
+            self.hashes.observe(sim, self.progress.is_at_end(sim));
         }
-        if stepped && let Some(text) = self.fallen.look(sim) {
+        if stepped && let Some(text) = self.fallen.observe(sim) {
             self.output.note(&text, sim.time());
         }
         self.progress.show(sim);

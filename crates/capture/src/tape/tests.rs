@@ -128,7 +128,7 @@ fn what_is_asked_for_within_an_input_is_part_of_it() {
 }
 
 #[test]
-fn the_first_difference_is_named_and_told_once() {
+fn the_first_difference_is_named_and_noted_once() {
     let folder = Folder::new();
     folder.capture(|tape| {
         tape.step(|| 1);
@@ -202,10 +202,10 @@ fn a_capture_that_was_cut_ends_with_its_last_step() {
 fn what_is_not_captured_is_said_and_no_part_of_the_run() {
     let folder = Folder::new();
     let said = Arc::new(AtomicUsize::new(0));
-    let told = Arc::clone(&said);
+    let noted = Arc::clone(&said);
     folder.capture(|tape| {
         tape.on_lack(move |what| {
-            told.fetch_add(what.len(), Ordering::Relaxed);
+            noted.fetch_add(what.len(), Ordering::Relaxed);
         });
         tape.lacks("a plugin");
         tape.step(|| 1);

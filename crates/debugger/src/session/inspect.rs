@@ -152,7 +152,7 @@ impl Session {
         described.collect()
     }
 
-    /// A variable, as clients are told of it.
+    /// A variable, as clients see it.
     fn describe(&self, script: i64, frame: Option<script::FrameId>, variable: Variable) -> Value {
         let reference = variable.contents.map_or(0, |contents| {
             self.references.borrow_mut().node(Node::OfScript {

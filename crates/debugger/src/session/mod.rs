@@ -37,7 +37,7 @@ const POLL: Duration = Duration::from_millis(100);
 /// How often to wait that long for the last message of a client.
 const LAST_POLLS: u32 = 30;
 /// How long to wait for the last messages to be written.
-const LAST_WORDS: Duration = Duration::from_secs(2);
+const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// A place in a run: it can be found again in a replay, where all traps are armed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,12 +72,12 @@ pub struct Session {
     position: Cell<Position>,
     ending: Cell<Option<Ending>>,
     /// Code of the client runs, or the session is over: nothing stops.
-    is_deaf: Cell<bool>,
+    ignores_code: Cell<bool>,
     has_client: Cell<bool>,
     exceptions: Cell<Exceptions>,
     breakpoints: RefCell<Breakpoints>,
     data: RefCell<DataBreakpoints>,
-    /// The last error that was told of: who passes it on raises it again.
+    /// The last error that was reported: who passes it on raises it again.
     last_error: RefCell<String>,
     /// What came while an expression of the client was evaluated.
     postponed: RefCell<VecDeque<Incoming>>,
@@ -116,7 +116,7 @@ impl Session {
     /// A session with the client of a connection. `is_attached`: the simulation does not wait for it, and goes on without it.
     pub fn new(link: Link, is_attached: bool) -> Rc<Self> {
         if !is_attached {
-            link.insist_on_end();
+            link.force_end_on_request();
         }
         Rc::new(Self {
             link,
@@ -127,7 +127,7 @@ impl Session {
             pause_is_late: Cell::new(false),
             position: Cell::default(),
             ending: Cell::new(None),
-            is_deaf: Cell::new(false),
+            ignores_code: Cell::new(false),
             has_client: Cell::new(false),
             exceptions: Cell::default(),
             breakpoints: RefCell::default(),
@@ -172,37 +172,37 @@ impl Session {
         }
     }
 
-    /// Says that the run is over, and with which exit code, and waits a moment for the client to say goodbye; everything is written when this
+    /// Says that the run is over, and with which exit code, and waits a moment for the client to disconnect; everything is written when this
     /// returns.
     pub fn finish(&self, exit_code: u8) {
         let has_client = self.has_client.get();
         self.send(event("exited", json!({"exitCode": exit_code})));
         self.send(event("terminated", Value::Null));
         for _ in 0..LAST_POLLS {
-            if !has_client || self.hears_goodbye() {
+            if !has_client || self.receives_disconnect() {
                 break;
             }
         }
-        self.link.finish(LAST_WORDS);
+        self.link.finish(FLUSH_TIMEOUT);
     }
 
     /// Answers what comes after the end; whether the client is done.
-    fn hears_goodbye(&self) -> bool {
+    fn receives_disconnect(&self) -> bool {
         match self.link.receive(POLL) {
             Some(Incoming::Gone(_)) => true,
             Some(Incoming::Message(message)) => {
                 let Some(request) = Request::parse(&message) else {
                     return false;
                 };
-                let is_goodbye = request.command == "disconnect";
+                let is_disconnect = request.command == "disconnect";
                 let over = "the run is over".to_owned();
-                let result = if is_goodbye {
+                let result = if is_disconnect {
                     Ok(Value::Null)
                 } else {
                     Err(over)
                 };
                 self.send(request.answer(result));
-                is_goodbye
+                is_disconnect
             }
             Some(Incoming::Connected) | None => false,
         }
@@ -211,7 +211,7 @@ impl Session {
     /// Prepares for another run with the same breakpoints.
     pub fn begin_again(&self) {
         self.ending.set(None);
-        self.is_deaf.set(false);
+        self.ignores_code.set(false);
         self.mode.set(Mode::Run);
         self.pause.set(false);
         self.position.set(Position::default());
@@ -267,13 +267,13 @@ impl Session {
     /// The run is to end: nothing stops any more.
     fn end(&self, sim: Option<&Rc<Sim>>, ending: Ending) {
         self.ending.set(Some(ending));
-        self.is_deaf.set(true);
+        self.ignores_code.set(true);
         self.set_mode(sim, Mode::Run);
     }
 
     fn set_mode(&self, sim: Option<&Rc<Sim>>, mode: Mode) {
         let did_step = self.mode.replace(mode).steps();
-        if did_step != mode.steps() || self.is_deaf.get() {
+        if did_step != mode.steps() || self.ignores_code.get() {
             self.arm_all(sim);
         }
     }
@@ -312,7 +312,7 @@ impl Session {
         if self.is_replay.get() {
             // They are counted, see `Position`.
             Armed::All
-        } else if self.is_deaf.get() {
+        } else if self.ignores_code.get() {
             Armed::Lines(BTreeSet::new())
         } else if self.mode.get().steps() || self.pause.get() {
             Armed::All
@@ -384,14 +384,14 @@ impl Debugger for Session {
             return;
         }
         self.advance();
-        if !self.is_deaf.get() && !sim.is_abandoned() && !self.data.borrow().is_empty() {
+        if !self.ignores_code.get() && !sim.is_abandoned() && !self.data.borrow().is_empty() {
             self.consider_changes(sim, script);
         }
     }
 
-    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool {
+    fn poll(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool {
         if self.stop.borrow().is_some() {
-            return self.looks_while_stopped();
+            return self.poll_while_stopped();
         }
         if script.is_none() {
             let turn = self.position.get().turn + 1;
@@ -413,7 +413,7 @@ impl Debugger for Session {
 
 impl Session {
     /// An expression of the client takes long. It ends when the client does not want to wait for it.
-    fn looks_while_stopped(&self) -> bool {
+    fn poll_while_stopped(&self) -> bool {
         let mut postponed = self.postponed.borrow_mut();
         while let Some(incoming) = self.link.try_receive() {
             postponed.push_back(incoming);

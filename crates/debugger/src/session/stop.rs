@@ -22,7 +22,7 @@ pub(super) struct Stop {
     pub error: Option<(String, bool)>,
 }
 
-/// Why code stops, as clients are told.
+/// Why code stops, as clients see it.
 pub(super) struct Reason {
     /// The word of the protocol.
     pub word: &'static str,

@@ -145,7 +145,7 @@ impl Session {
 
     /// Whether what happens may stop the code.
     pub(super) fn listens(&self, sim: &Sim) -> bool {
-        !self.is_deaf.get() && !sim.is_abandoned() && !self.is_past_goal()
+        !self.ignores_code.get() && !sim.is_abandoned() && !self.is_past_goal()
     }
 
     /// A search that has come to the place where it began has nothing more to do.
