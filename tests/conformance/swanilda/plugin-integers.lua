@@ -20,5 +20,9 @@ print('image', simIM.size(image))
 local env = simIK.createEnvironment()
 local dummy = simIK.createDummy(env)
 print('no object', simIK.getObjectParent(env, dummy + 0.0), (pcall(simIK.getObjectParent, env, -1.0)))
+print('server', (pcall(simWS.stop, simWS.start(0.4))))
+local zmq = require 'simZMQ'
+local context = zmq.ctx_new()
+print('context', (pcall(zmq.ctx_set, context, zmq.IO_THREADS + 0.0, 1.0)))
 -- Functions of sim itself that take integers take nothing else.
 print('sim', (pcall(sim.getObjectAlias, sim.createDummy(0.1), 1.5)))

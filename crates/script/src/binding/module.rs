@@ -56,6 +56,11 @@ impl Module {
         }
     }
 
+    /// Whether it is a plugin in CoppeliaSim, such as simUI; sim itself and Lua's libraries are not.
+    pub(crate) fn is_plugin(&self) -> bool {
+        self.name.len() > "sim".len() && self.name.starts_with("sim")
+    }
+
     /// The functions for scripts, of all categories.
     pub fn public_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
         self.functions.iter().flat_map(|(_, functions)| *functions)

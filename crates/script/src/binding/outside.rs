@@ -17,7 +17,7 @@ impl Bound {
     /// Calls the function with the arguments on a stack; `who` calls, in the words of a difference.
     #[inline]
     pub(crate) fn call(&self, stack: Stack<'_>, who: impl Fn() -> String) -> ApiResult<c_int> {
-        let mut args = Args::new(stack).for_plugin(self.plugin_errors);
+        let mut args = Args::new(stack).for_plugin(self.is_plugin);
         if !self.is_outside || !stack.tape().is_on() {
             return (self.function.call)(&mut args);
         }
@@ -47,7 +47,7 @@ impl Bound {
         values: Values<'_>,
         who: impl Fn() -> String,
     ) -> ApiResult<Vec<Data>> {
-        let mut args = Args::new(values).for_plugin(self.plugin_errors);
+        let mut args = Args::new(values).for_plugin(self.is_plugin);
         if !self.is_outside || !tape.is_on() {
             return (self.function.call_data)(&mut args);
         }

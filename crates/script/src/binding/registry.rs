@@ -89,6 +89,8 @@ pub(crate) struct Bound {
     pub replacement: Option<&'static str>,
     /// As of its module.
     pub plugin_errors: bool,
+    /// Whether it belongs to a plugin of CoppeliaSim: integers may be floats.
+    pub is_plugin: bool,
     /// Whether it calls the world outside.
     pub is_outside: bool,
 }

@@ -69,6 +69,7 @@ impl Registry {
             function,
             replacement,
             plugin_errors: module.plugin_errors,
+            is_plugin: module.is_plugin(),
             is_outside: module.outside.has(function.name),
         });
         FunctionId(self.functions.len() - 1)
