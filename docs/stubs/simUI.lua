@@ -255,7 +255,7 @@ function simUI.getRadiobuttonValue(handle, id) end
 ---@return integer count
 function simUI.getRowCount(handle, id) end
 
---- The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
+--- The size of a window, pixels. One that has no size of its own has a default one, whatever size pages draw it in.
 ---@param handle string the window
 ---@return integer w
 ---@return integer h

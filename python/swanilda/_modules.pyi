@@ -8814,7 +8814,7 @@ class _simUI:
         id: the table
         """
     def getSize(self, handle: str, /) -> tuple[int, int]:
-        """The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
+        """The size of a window, pixels. One that has no size of its own has a default one, whatever size pages draw it in.
         handle: the window
         """
     def getSliderValue(self, handle: str, id: int, /) -> int:

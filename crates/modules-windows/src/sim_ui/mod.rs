@@ -1,4 +1,4 @@
-//! The native part of `simUI` (`lua/modules/simUI.lua`): windows of scripts. Windows and widgets are in the crate `ui`; nothing is drawn here.
+//! The native part of `simUI` (`lua/modules/simUI.lua`): windows of scripts. Windows and widgets are in the crate `ui`; pages draw them.
 
 mod arguments;
 mod boxes;

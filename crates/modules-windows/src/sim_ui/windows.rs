@@ -156,7 +156,7 @@ fn set_position(
     })
 }
 
-/// The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
+/// The size of a window, pixels. One that has no size of its own has a default one, whatever size pages draw it in.
 ///
 /// @param handle the window
 /// @return w

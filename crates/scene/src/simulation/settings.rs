@@ -27,7 +27,7 @@ pub struct Settings {
     pub visibility_layers: Layers,
     /// Where the file of the scene is; empty without a file.
     pub path: String,
-    /// Simulation steps per drawn image. Kept for scripts: nothing is drawn.
+    /// Simulation steps per drawn image. Kept for scripts, without effect.
     pub steps_per_rendering: i64,
     /// Authors and licence, as the scene states them.
     pub acknowledgment: String,
