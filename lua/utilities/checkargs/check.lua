@@ -16,7 +16,7 @@ function check.float(v) return type(v) == 'number', 'must be a float' end
 function check.int(v) return math.type(v) == 'integer' or (type(v) == 'number' and v == math.floor(v)), 'must be an int' end
 function check.string(v) return type(v) == 'string' or isbuffer(v), 'must be a string' end
 function check.bool(v) return type(v) == 'boolean', 'must be a bool' end
-function check.func(v) return isCallable(v) or (type(v) == 'string' and type(_G[v]) == 'function'), 'must be a function' end
+function check.func(v) return isCallable(v) or (type(v) == 'string' and type(_G[v]) == 'function'), 'must be a func' end
 function check.handle(v) return math.type(v) == 'integer', 'must be a handle' end
 
 function check.object(v, t)

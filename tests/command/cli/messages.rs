@@ -319,6 +319,10 @@ fn errors_name_the_argument_that_is_nil_and_the_name_that_was_meant() {
             "sim.setObjectPosition: argument 2 (position) is missing",
         ),
         (
+            "sim.buildPose(1, {0, 0, 0})",
+            "sim.buildPose: argument 1 (position) is no table",
+        ),
+        (
             "sim.getObjectHandel('/a')",
             "sim has no 'getObjectHandel'; did you mean 'getObjectHandle'?",
         ),

@@ -120,7 +120,12 @@ impl FileOrBytes {
                 Ok(Self::Name(String::from_utf8_lossy(&text).into_owned()))
             }
             Data::Text(bytes) | Data::Buffer(bytes) => Ok(Self::Bytes(bytes)),
-            _ => Err(ApiError::Other("a file name or a buffer is needed.".into())),
+            // As for any text, a number is one.
+            Data::Int(number) => Ok(Self::Name(number.to_string())),
+            _ => Err(ApiError::NotA {
+                position: 1,
+                expected: "string/buffer",
+            }),
         }
     }
 }

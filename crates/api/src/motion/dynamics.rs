@@ -4,7 +4,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use scene::{Field, Handle, Object, SceneError, flag, special};
-use script::ObjectRef;
+use script::{Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     add_force,
@@ -92,7 +92,8 @@ fn get_velocity(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 3])> {
 ///
 /// @param objectHandle the object, with sim.handleflag_model also everything below it, or sim.handle_all
 #[api("sim.resetDynamicObject")]
-fn reset_dynamic_object(cx: &mut Cx, object_handle: i64) -> Result<i64> {
+fn reset_dynamic_object(cx: &mut Cx, object_handle: Number) -> Result<i64> {
+    let object_handle = object_handle.0;
     let scene = &mut *cx.scene_mut();
     let objects = match Handle::from_raw(object_handle) {
         _ if object_handle == special::ALL => scene.objects().map(Object::handle).collect(),

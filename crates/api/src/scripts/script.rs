@@ -8,7 +8,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Data, Handle, Kind, SceneError, special};
 use script::Source;
-use script::{Bytes, Number, Rest, Results, Script};
+use script::{Bytes, InTurn, Number, Rest, Results, Script};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_script,
@@ -80,8 +80,8 @@ pub(crate) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
 ///
 /// @param scriptHandle the script
 #[api("sim.initScript")]
-fn init_script(cx: &mut Cx, script_handle: i64) -> Result<()> {
-    let script = script_of(cx, script_handle)?;
+fn init_script(cx: &mut Cx, script_handle: Number) -> Result<()> {
+    let script = script_of(cx, script_handle.0)?;
     cx.init_script(&script);
     Ok(())
 }
@@ -234,7 +234,8 @@ fn execute_script_string(
 ///
 /// @param message a table; by convention with `id` and `data`
 #[api("sim.broadcastMsg")]
-fn broadcast_msg(cx: &mut Cx, message: Data, #[name("...")] options: Rest) -> Result<()> {
+fn broadcast_msg(cx: &mut Cx, message: InTurn<Data>, #[name("...")] options: Rest) -> Result<()> {
+    let message = message.0;
     if !matches!(message, Data::Array(_) | Data::Map(_)) {
         return Err(ApiError::ArgumentType);
     }

@@ -31,11 +31,11 @@ fn get_shape_color(
     cx: &Cx,
     shape_handle: Handle,
     color_name: Option<String>,
-    color_component: Number,
+    color_component: InTurn<Number>,
 ) -> Result<(i64, Vec<f64>)> {
     let scene = cx.scene();
     let shape = scene.object(shape_handle)?.shape()?;
-    let Some(component) = ColourComponent::from_code(color_component.0) else {
+    let Some(component) = ColourComponent::from_code(color_component.0.0) else {
         return Ok((0, vec![0.0; 3]));
     };
     let colour = shape.colour(&ColourName::from_script(color_name), component);

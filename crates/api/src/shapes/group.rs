@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use crate::{ApiFn, Cx, Result, functions};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::{Handle, SceneError};
 use script::{Handles, Number};
 
@@ -19,6 +19,9 @@ fn group_shapes(
     shape_handles: Handles,
     #[default(false)] merge: bool,
 ) -> Result<Handle> {
+    if shape_handles.0.is_empty() {
+        return Err(ApiError::TableSize);
+    }
     let (group, members) = cx.scene_mut().group_shapes(&shape_handles.0, merge)?;
     replace(cx, &members, vec![group])?;
     Ok(group)

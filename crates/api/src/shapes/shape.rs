@@ -221,7 +221,8 @@ fn get_shape_mesh(cx: &Cx, shape_handle: Handle) -> Result<(Vec<f64>, Vec<i64>, 
 /// @return size full extents, metres
 /// @return pose of the box in the shape's frame
 #[api("sim.getShapeBB")]
-fn get_shape_bb(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 7])> {
+fn get_shape_bb(cx: &Cx, shape_handle: i64) -> Result<([f64; 3], [f64; 7])> {
+    let shape_handle = Handle::from_raw(shape_handle).ok_or(SceneError::NoSuchObject)?;
     let bounding_box = cx.scene().object(shape_handle)?.shape()?.bounding_box;
     Ok((bounding_box.size, pose_to_array(&bounding_box.pose)))
 }

@@ -63,6 +63,10 @@ impl Bound {
                     ))
                 })
             }
+            // Of what should have been a table, the functions of sim name no position.
+            ApiError::NotA {
+                expected: "table", ..
+            } if !self.is_plugin => ApiError::ArgumentType,
             _ => error,
         }
     }

@@ -95,8 +95,8 @@ impl Log {
         self.missed.replace(Some(Missed::File(name.to_owned())));
     }
 
-    /// Remembers which argument of a call is nil or missing.
-    pub(super) fn note_empty_argument(&self, function: &str, wrong: String) {
+    /// Remembers which argument of a call is nil, missing or no table.
+    pub(super) fn note_wrong_argument(&self, function: &str, wrong: String) {
         let function = function.to_owned();
         self.missed
             .replace(Some(Missed::Argument { function, wrong }));

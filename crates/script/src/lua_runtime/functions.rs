@@ -61,8 +61,8 @@ fn fail(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Result<c_int, Stri
         env.last_error.replace(error.to_string());
     }
     if env.raises_errors.get() || !is_refusal {
-        if let (Some(sim), Some(wrong)) = (env.sim.upgrade(), empty_argument(stack, bound, error)) {
-            sim.log.note_empty_argument(&bound.name, wrong);
+        if let (Some(sim), Some(wrong)) = (env.sim.upgrade(), wrong_argument(stack, bound, error)) {
+            sim.log.note_wrong_argument(&bound.name, wrong);
         }
         return Err(error_text(error, stack, &bound.name));
     }
@@ -73,8 +73,8 @@ fn fail(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Result<c_int, Stri
     Ok(returns_a_number.into())
 }
 
-/// Which argument of a refused call is nil or missing; None where none is that has to be there.
-fn empty_argument(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Option<String> {
+/// Which argument of a refused call is nil, missing or no table; None where none is that has to be.
+fn wrong_argument(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Option<String> {
     let of_arguments = matches!(
         error,
         ApiError::ArgumentType | ApiError::MoreArguments | ApiError::NotA { .. }
@@ -88,9 +88,14 @@ fn empty_argument(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Option<S
         .iter()
         .take_while(|param| param.name != "...");
     for (position, param) in (1..).zip(named) {
-        let is_missing = position > stack.top();
-        if param.default.is_none() && (is_missing || stack.kind(position) == Type::Nil) {
-            let what = if is_missing { "missing" } else { "nil" };
+        let is_required = param.default.is_none();
+        let what = match stack.kind(position) {
+            _ if position > stack.top() => is_required.then_some("missing"),
+            Type::Nil => is_required.then_some("nil"),
+            Type::Table => None,
+            _ => param.ty.ends_with(']').then_some("no table"),
+        };
+        if let Some(what) = what {
             return Some(format!("argument {position} ({}) is {what}", param.name));
         }
     }
