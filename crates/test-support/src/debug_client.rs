@@ -14,7 +14,8 @@ const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// A client, and the command that it has started.
 pub struct Client {
-    command: Child,
+    /// None for a debugger that somebody else has started.
+    command: Option<Child>,
     output: Box<dyn Write + Send>,
     messages: Receiver<Value>,
     /// Messages that nobody has asked for yet.
@@ -31,7 +32,7 @@ impl Client {
         let mut command = spawn(program, &[&["debug"], arguments].concat());
         let output = command.stdin.take().expect("a pipe");
         let input = command.stdout.take().expect("a pipe");
-        Self::of(command, input, output)
+        Self::of(Some(command), input, output)
     }
 
     /// The same over a port.
@@ -53,7 +54,14 @@ impl Client {
         let input = stream.try_clone().expect("a stream");
         // Whoever reads it no longer closes it.
         std::mem::forget(said);
-        Self::of(command, input, stream)
+        Self::of(Some(command), input, stream)
+    }
+
+    /// Connects to a debugger that listens at `host:port`.
+    pub fn connected_to(address: &str) -> Self {
+        let stream = TcpStream::connect(address).expect("it listens");
+        let input = stream.try_clone().expect("a stream");
+        Self::of(None, input, stream)
     }
 
     /// The same for another command that listens, `swanilda serve` for instance.
@@ -62,7 +70,7 @@ impl Client {
     }
 
     fn of(
-        command: Child,
+        command: Option<Child>,
         input: impl Read + Send + 'static,
         output: impl Write + Send + 'static,
     ) -> Self {
@@ -238,7 +246,8 @@ impl Client {
     /// Waits for the end of the command.
     pub fn exit_code(&mut self) -> Option<i32> {
         for _ in 0..TIMEOUT.as_millis() / 20 {
-            if let Some(status) = self.command.try_wait().expect("it was started") {
+            let command = self.command.as_mut().expect("it was started");
+            if let Some(status) = command.try_wait().expect("it can be waited for") {
                 return status.code();
             }
             std::thread::sleep(Duration::from_millis(20));
@@ -249,8 +258,10 @@ impl Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
-        let _ = self.command.kill();
-        let _ = self.command.wait();
+        if let Some(command) = &mut self.command {
+            let _ = command.kill();
+            let _ = command.wait();
+        }
     }
 }
 

@@ -58,6 +58,8 @@ impl Player<'_> {
         match self.search(travel, here)? {
             Some(position) => {
                 self.go_to(position.turn - 1)?;
+                // Who goes back once does so again. Without a checkpoint here it takes longer.
+                let _ = self.playback.add_checkpoint();
                 self.session.reach(position);
                 self.run_until(|session| {
                     session.is_live() || session.position().turn > position.turn
