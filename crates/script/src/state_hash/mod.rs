@@ -35,13 +35,21 @@ struct StateHash {
 impl Sim {
     /// The hash of what scripts can observe now.
     pub fn state_hash(self: &Rc<Self>) -> u64 {
+        self.state_hash_and_changes().0
+    }
+
+    /// The same, and how many values have another hash than the last time.
+    pub(crate) fn state_hash_and_changes(self: &Rc<Self>) -> (u64, usize) {
         let known = self.modules.states.get::<StateHash>();
         let mut unreported = known.unreported.borrow_mut();
-        known.hashes.borrow_mut().update(self, &mut |value| {
+        let mut changes = 0;
+        let hash = known.hashes.borrow_mut().update(self, &mut |value| {
+            changes += 1;
             if let Some(unreported) = unreported.as_mut() {
                 unreported.push((value.target, value.name.to_owned(), value.hash));
             }
-        })
+        });
+        (hash, changes)
     }
 
     /// The same; `sink` gets the values that changed since the last call of this function, all of them at the first one.

@@ -131,6 +131,11 @@ impl ScriptSet {
         self.by_id.borrow().values().cloned().collect()
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.by_id.borrow().len()
+    }
+
     /// Shows all scripts in the order of [`all`](Self::all), while none comes or goes.
     pub(crate) fn for_each(&self, look: impl FnMut(&Rc<Script>)) {
         self.by_id.borrow().values().for_each(look);
