@@ -188,3 +188,37 @@ fn files_that_are_closed_are_not_named() {
     assert_eq!(sim.errors(), 0);
     sim.snapshot().expect("nothing is open");
 }
+
+/// What programs hold of a simulator is counted in their memory, which no restore brings back.
+#[test]
+fn callers_come_and_go_between_restores() {
+    let mut sim = Simulator::new(Options::default());
+    let script = sim
+        .add_script(ScriptKind::Customization, "", b"sim = require 'sim'")
+        .expect("the script loads");
+    let before = sim.snapshot().expect("nothing is open");
+    let mut callers: Vec<_> = (0..1000).map(|_| sim.caller(&script)).collect();
+    sim.restore(&before).expect("nothing is open");
+    // Without a snapshot, what is counted as unused is freed.
+    drop(before);
+    callers.truncate(1);
+    let last = callers.remove(0);
+    let create = last.function("sim.createDummy");
+    let created = last.call(&create, &[swanilda::scene::Data::Float(0.1)]);
+    assert!(created.is_ok(), "{created:?}");
+}
+
+/// The place of a simulator is free again when it is gone.
+#[test]
+fn there_are_snapshots_however_many_simulators_there_were() {
+    for round in 0..1100 {
+        let mut sim = Simulator::new(Options::default());
+        let script = sim
+            .add_script(ScriptKind::Customization, "", b"")
+            .expect("the script loads");
+        let caller = sim.caller(&script);
+        let taken = sim.snapshot();
+        assert!(taken.is_ok(), "{round}");
+        drop((taken, caller, sim));
+    }
+}

@@ -194,6 +194,12 @@ def test_a_simulator_is_shown_or_branched(simulator):
         simulator.branch(1)
 
 
+def test_there_are_snapshots_however_many_simulators_there_were():
+    for _ in range(1100):
+        with swanilda.Simulator(empty=True, quiet=True) as s:
+            s.snapshot()
+
+
 def test_no_snapshot_forgets_variables_of_python(simulator):
     class Robot:
         def sysCall_init(self):

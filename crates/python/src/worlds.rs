@@ -44,10 +44,10 @@ pub struct Shared {
 /// One simulator, with its branches.
 pub struct World {
     pub number: u64,
+    /// The script in whose name Python's main program calls; dropped before the simulator, whose memory is free then.
+    pub main: Rc<Speaker>,
     /// Borrowed while it runs.
     pub simulator: RefCell<Simulator>,
-    /// The script in whose name Python's main program calls.
-    pub main: Rc<Speaker>,
     pub shared: Rc<Shared>,
     /// What shows it in browsers.
     pub viewer: RefCell<Option<Viewer>>,

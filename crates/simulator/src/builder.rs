@@ -138,8 +138,8 @@ impl Builder {
                 let _ = sim.scripts.debugger.set(debugger);
             }
             Parts {
-                sim,
                 native_scripts,
+                sim,
             }
         });
         Simulator::with_main_and_sandbox(parts, options)

@@ -10,10 +10,14 @@ use script::{ApiError, Member, Script, Sim, SimulationState, is_short};
 /// The library's helper for calls from programs.
 const HELPER: &str = "swanilda.calls";
 
+/// The way of the program to a simulator, which it does not keep alive. The simulator counts one of them, made with it: what the program
+/// makes and drops of its own is counted outside, where no restore brings back the count.
+pub(crate) type Link = Rc<Weak<Sim>>;
+
 /// Calls API functions in the name of a script, also while scripts run. It does not keep the simulator alive.
 #[derive(Clone)]
 pub struct Caller {
-    sim: Weak<Sim>,
+    sim: Link,
     script: i64,
     heap: Option<Handle>,
 }
@@ -72,9 +76,9 @@ impl ApiFunction {
 
 impl Caller {
     /// Calls in the name of that script; made in the memory of the simulator.
-    pub(super) fn new(sim: &Rc<Sim>, script: i64) -> Self {
+    pub(super) fn new(sim: &Link, script: i64) -> Self {
         Self {
-            sim: Rc::downgrade(sim),
+            sim: Rc::clone(sim),
             script,
             heap: Handle::current(),
         }

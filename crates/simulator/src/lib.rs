@@ -36,6 +36,7 @@ use script::coverage::LineCounts;
 use script::{ApiError, Detached, SceneSource, Script, SysCall, TestBench};
 
 pub use builder::Builder;
+use caller::Link;
 pub use caller::{ApiFunction, Caller, ModuleMember, Progress};
 use memory::Parts;
 pub use memory::{SceneMut, Snapshot};
@@ -97,6 +98,8 @@ impl ScriptRef {
 ///
 /// Deep recursion in scripts takes native stack: run a simulator on a thread with [`Simulator::STACK_SIZE`] bytes of it.
 pub struct Simulator {
+    /// Dropped before the memory that it leads to.
+    link: Link,
     parts: Contained<Parts>,
     /// What the options of the parts share with the program is dropped outside of their memory.
     _options: Options,
@@ -123,7 +126,10 @@ impl Simulator {
 
     /// The simulator of these parts; main script and sandbox are added.
     fn with_main_and_sandbox(parts: Contained<Parts>, options: Options) -> Self {
+        let link = Link::new(Rc::downgrade(&parts.sim));
+        parts.native_scripts.link_to(&link);
         let simulator = Self {
+            link,
             parts,
             _options: options,
         };

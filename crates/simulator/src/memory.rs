@@ -12,8 +12,9 @@ use super::{Error, NativeScripts, Simulator};
 
 /// What lies in the memory of a simulator.
 pub(crate) struct Parts {
-    pub(crate) sim: Rc<Sim>,
+    /// Dropped before the simulator, to which it has a link.
     pub(crate) native_scripts: Rc<NativeScripts>,
+    pub(crate) sim: Rc<Sim>,
 }
 
 /// The parts of a simulator while code runs in its memory.

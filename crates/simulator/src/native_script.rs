@@ -4,6 +4,7 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::caller::Link;
 use super::{Caller, Error, ScriptKind, ScriptRef, Simulator};
 use heap::resource::Resource;
 use heap::{Outer, brought_in};
@@ -67,9 +68,22 @@ type Factory = Outer<Rc<NativeScriptFactory>>;
 pub(super) struct NativeScripts {
     factories: RefCell<BTreeMap<Vec<u8>, Rc<Factory>>>,
     count: Cell<usize>,
+    /// For the calls of scripts.
+    link: OnceCell<Outer<Link>>,
 }
 
 impl NativeScripts {
+    /// What calls its functions lead to.
+    pub(super) fn link_to(&self, link: &Link) {
+        // It is made once.
+        let _ = self.link.set(Outer::new(Rc::clone(link)));
+    }
+
+    fn caller(&self, script: i64) -> Option<Caller> {
+        let link = self.link.get()?;
+        Some(Caller::new(link.get(), script))
+    }
+
     fn add(&self, name: &str, factory: Rc<NativeScriptFactory>) -> Vec<u8> {
         self.count.set(self.count.get() + 1);
         let number = self.count.get();
@@ -140,8 +154,8 @@ impl Simulator {
 
     /// Calls of API functions in the name of a script.
     pub fn caller(&self, script: &ScriptRef) -> Caller {
-        let inside = self.inside();
-        Caller::new(&inside, script.0)
+        let _inside = self.inside();
+        Caller::new(&self.link, script.0)
     }
 }
 
@@ -177,11 +191,8 @@ struct Running {
 
 impl Running {
     fn caller(&self) -> Result<Caller, ScriptError> {
-        let sim = self
-            .env
-            .simulator()
-            .ok_or_else(|| ScriptError::new("the simulator is gone."))?;
-        Ok(Caller::new(&sim, self.env.script.id))
+        let caller = self.scripts.caller(self.env.script.id);
+        caller.ok_or_else(|| ScriptError::new("the simulator is gone."))
     }
 
     fn lua(&self) -> Result<&Runtime, ScriptError> {
