@@ -8,8 +8,6 @@
 
 mod api;
 mod batch;
-mod batch_ray;
-mod branches;
 mod built;
 mod convert;
 mod debug;
@@ -19,8 +17,6 @@ mod export;
 mod files;
 mod init;
 mod inspect;
-mod isolated;
-mod python_uses;
 mod remote;
 mod render;
 mod replay;

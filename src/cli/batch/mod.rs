@@ -1,5 +1,7 @@
 //! `swanilda batch`: one scene, many runs, a table of results.
 
+mod ray;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
 use std::num::NonZero;
@@ -93,7 +95,7 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
         if args.permissions.is_restricted() {
             return Err("--ray knows no restrictions of permissions.".into());
         }
-        return super::batch_ray::run(&batch, address, &args.out, args.timeout, args.force);
+        return ray::run(&batch, address, &args.out, args.timeout, args.force);
     }
     let runs = batch.runs();
     let mut store =

@@ -1,10 +1,12 @@
 //! `swanilda doctor`: which calls of scripts and scenes work here.
 
+mod python_uses;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::{Outcome, python_uses, say};
+use super::{Outcome, say};
 use docs::{self, Support, Use};
 use format::{scene_file, script_file};
 use permissions::read_bounded;

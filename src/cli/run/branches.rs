@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use super::run::{Args, SCRIPT_ERROR, end};
-use super::session::Session;
-use super::setup::seconds;
-use super::{Outcome, batch, complain};
+use super::{Args, SCRIPT_ERROR, end};
+use crate::cli::session::Session;
+use crate::cli::setup::seconds;
+use crate::cli::{Outcome, batch, complain};
 use simulator::{Options, Run, RunTotals, Simulator, Snapshot};
 use testing::batch::{Batch, Row, Store, results};
 

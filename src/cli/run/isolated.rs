@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitCode, ExitStatus};
 
-use super::{INTERNAL, complain};
+use crate::cli::{INTERNAL, complain};
 use io::signals;
 
 /// The variable with the file in which the child notes the plugin that is running.

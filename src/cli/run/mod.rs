@@ -2,11 +2,13 @@
 //!
 //! This file reads the command line and builds the simulator; `session` holds the loop.
 
+mod branches;
+mod isolated;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use super::branches::{self, BranchArgs};
 use super::capture::{CaptureArgs, finish};
 use super::fallen::Fallen;
 use super::graphs::GraphArgs;
@@ -23,7 +25,8 @@ use super::session::{END, Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
-use super::{Outcome, USAGE, complain, isolated};
+use super::{Outcome, USAGE, complain};
+use branches::BranchArgs;
 use capture::Tape;
 use format::robot_file::RobotFile;
 use permissions::Permissions;
@@ -31,7 +34,7 @@ use simulator::{Builder, Options, Run, RunLimits, RunObserver, RunTotals, Script
 use view::Viewer;
 
 /// Exit code when a script raised an error.
-pub(super) const SCRIPT_ERROR: u8 = 1;
+const SCRIPT_ERROR: u8 = 1;
 /// Exit code when a step is another one than in the file of --expect-hash.
 const DIFFERENT: u8 = 3;
 
@@ -39,7 +42,7 @@ const DIFFERENT: u8 = 3;
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack
-    pub(super) scene: PathBuf,
+    scene: PathBuf,
     /// Script type to load the file as
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
     kind: Kind,
@@ -59,7 +62,7 @@ pub(super) struct Args {
     #[arg(long)]
     isolate: bool,
     #[command(flatten)]
-    pub(super) branches: BranchArgs,
+    branches: BranchArgs,
     #[command(flatten)]
     video: VideoArgs,
     #[command(flatten)]
@@ -172,11 +175,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 }
 
 /// Ends a run; the number of script errors, and the exit code.
-pub(super) fn end(
-    mut sim: Simulator,
-    written: &Result<(), String>,
-    interrupt: &Interrupt,
-) -> (u64, u8) {
+fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) -> (u64, u8) {
     if sim.tape().signal(END, || interrupt.is_requested()) {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.

@@ -443,7 +443,7 @@ pub const INPUTS: &[(&str, &str)] = &[
     ),
     ("crates/simulator/src/servers.rs", "addresses of servers"),
     ("crates/view/src/viewer.rs", "requests of pages"),
-    ("src/cli/run.rs", "requests to end the program"),
+    ("src/cli/run/mod.rs", "requests to end the program"),
     ("src/cli/session/live.rs", "requests to end the program"),
     (
         "src/cli/replay/command_loop.rs",
