@@ -128,7 +128,7 @@ impl Debugger for Watch {
         }
     }
 
-    fn poll(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
+    fn answer_requests(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
         false
     }
 }

@@ -59,7 +59,7 @@ impl Debugger for Inspector {
 
     fn scene_changed(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) {}
 
-    fn poll(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
+    fn answer_requests(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
         false
     }
 }

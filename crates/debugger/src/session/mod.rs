@@ -389,7 +389,7 @@ impl Debugger for Session {
         }
     }
 
-    fn poll(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool {
+    fn answer_requests(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool {
         if self.stop.borrow().is_some() {
             return self.poll_while_stopped();
         }

@@ -31,7 +31,7 @@ pub trait Debugger {
 
     /// Nothing runs, or code runs that does not end, also code that the debugger has asked for; `script` is the one that does. Returns whether
     /// the code is to end with an error.
-    fn poll(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool;
+    fn answer_requests(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool;
 }
 
 /// A text whose lines can have traps.

@@ -21,7 +21,7 @@ impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub fn loop_iteration(self: &Rc<Self>) {
         self.notify_debugger(|debugger| {
-            debugger.poll(self, None);
+            debugger.answer_requests(self, None);
         });
         self.options.permissions.tape().turn();
         self.notify_plugins_of_pass();

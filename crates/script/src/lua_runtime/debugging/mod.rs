@@ -268,7 +268,7 @@ fn asked(stack: Stack<'_>) -> bool {
     let debugger = |sim: Rc<Sim>| {
         let debugger = sim.scripts.debugger.get()?;
         let script = &stack.env().script;
-        let is_to_end = heap::outside(|| debugger.poll(&sim, Some(script)));
+        let is_to_end = heap::outside(|| debugger.answer_requests(&sim, Some(script)));
         Some(is_to_end || sim.is_abandoned())
     };
     let is_to_end = stack.env().sim.upgrade().and_then(debugger);
