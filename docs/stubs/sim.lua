@@ -1252,7 +1252,7 @@ function sim.getIsRealTimeSimulation() end
 
 --- The dependency of a joint: position = offset + multCoeff * position of the master.
 ---@param jointHandle integer the joint
----@return integer masterJointHandle -1 if there is none
+---@return integer masterJointHandle -1 if there is none; offset and factor are those of the last one then
 ---@return number offset rad or metres
 ---@return number multCoeff the factor
 function sim.getJointDependency(jointHandle) end
@@ -1943,7 +1943,7 @@ function sim.getShapeBB(shapeHandle) end
 
 --- A colour of a shape.
 ---@param shapeHandle integer the shape
----@param colorName? string nil: the first mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
+---@param colorName? string nil: the last mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
 ---@param colorComponent integer sim.colorcomponent_*
 ---@return integer result 1, or 0 when no mesh is called so
 ---@return number[] rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -2080,7 +2080,7 @@ function sim.getTableProperty(target, propertyName, options) end
 
 --- The texture with a name: that of its file, without folder and ending.
 ---@param textureName string the first one with that name counts
----@return integer textureId -1 when there is none
+---@return integer textureId an error where there is none
 ---@return integer[] resolution pixels
 function sim.getTextureId(textureName) end
 
@@ -3861,7 +3861,7 @@ function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
 ---@param shapeHandle integer the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
----@param colorName? string nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
+---@param colorName? string nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh, black for those without one
 ---@param colorComponent integer sim.colorcomponent_*
 ---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque
 ---@return integer result 1

@@ -3643,7 +3643,7 @@ class _sim:
     def getShapeColor(self, shapeHandle: int, colorName: str | None = ..., colorComponent: int | None = ..., /) -> tuple[int, list[float]]:
         """A colour of a shape.
         shapeHandle: the shape
-        colorName: nil: the first mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
+        colorName: nil: the last mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
         colorComponent: sim.colorcomponent_*
         """
     def getShapeGeomInfo(self, shapeHandle: int, /) -> tuple[int, int, list[float]]:
@@ -5268,7 +5268,7 @@ class _sim:
     def setShapeColor(self, shapeHandle: int, colorName: str | None = ..., colorComponent: int | None = ..., rgbData: Sequence[float] | _Array | None = ..., /) -> int:
         """Colours a shape.
         shapeHandle: the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
-        colorName: nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
+        colorName: nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh, black for those without one
         colorComponent: sim.colorcomponent_*
         rgbData: red, green, blue; one number for transparency, 1 for opaque
         """

@@ -81,6 +81,7 @@ function M.create(poses, info)
     writeBlocks(path, rows, sampling.sample(rows, complete(info)))
     local script = sim.createScript(sim.scripttype_customization, "path = require('path_customization')")
     sim.setObjectParent(script, path, true)
+    sim.setObjectHierarchyOrder(script, 0)
     return path
 end
 

@@ -12,7 +12,7 @@ end
 -- a plane with a new image: white, red is written to a corner
 local plane, id, res = sim.createTexture('', 1 + 4, {0.4, 0.2}, nil, nil, 1, {2, 2})
 print(id == sim.object_texturestart, res, sim.getShapeTextureId(plane) == id, sim.getTextureId('texture'))
-print(sim.getTextureId('nothing'))
+print(fails(sim.getTextureId, 'nothing'))
 sim.writeTexture(id, 0, string.char(255, 0, 0), 1, 0, 1, 1)
 print(bytes(sim.readTexture(id, 0)))
 sim.writeTexture(id, 0, string.char(0, 0, 0), 1, 0, 1, 1, 0.5)

@@ -165,15 +165,16 @@ fn get_joint_velocity(cx: &Cx, joint_handle: Handle) -> Result<f64> {
 /// The dependency of a joint: position = offset + multCoeff * position of the master.
 ///
 /// @param jointHandle the joint
-/// @return masterJointHandle -1 if there is none
+/// @return masterJointHandle -1 if there is none; offset and factor are those of the last one then
 /// @return offset rad or metres
 /// @return multCoeff the factor
 #[api("sim.getJointDependency")]
 fn get_joint_dependency(cx: &Cx, joint_handle: Handle) -> Result<(i64, f64, f64)> {
-    let law = joint(cx, joint_handle, |joint| joint.dependency)?;
-    Ok(law.map_or((-1, 0.0, 1.0), |law| {
-        (law.master.raw(), law.offset, law.coefficient)
-    }))
+    joint(cx, joint_handle, |joint| {
+        let master = joint.dependency.map_or(-1, |law| law.master.raw());
+        let [offset, coefficient] = joint.dependency_law();
+        (master, offset, coefficient)
+    })
 }
 
 /// Makes a joint in dependent mode follow another.

@@ -22,7 +22,7 @@ fn component(code: Number) -> Result<ColourComponent> {
 /// A colour of a shape.
 ///
 /// @param shapeHandle the shape
-/// @param colorName nil: the first mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
+/// @param colorName nil: the last mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
 /// @param colorComponent sim.colorcomponent_*
 /// @return result 1, or 0 when no mesh is called so
 /// @return rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -45,7 +45,7 @@ fn get_shape_color(
 /// Colours a shape.
 ///
 /// @param shapeHandle the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
-/// @param colorName nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
+/// @param colorName nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh, black for those without one
 /// @param colorComponent sim.colorcomponent_*
 /// @param rgbData red, green, blue; one number for transparency, 1 for opaque
 /// @return result 1

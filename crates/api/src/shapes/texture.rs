@@ -11,7 +11,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture};
 use scene::appearance::texture::Texture;
 use scene::appearance::texture_mapping::{
-    ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource,
+    ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource, no_texture,
 };
 use scene::numbers;
 use scene::shape::options::MeshOptions;
@@ -62,9 +62,15 @@ fn create_texture(
     #[default(0)] fixed_resolution: Number,
     #[default(None)] resolution: Option<[f64; 2]>,
 ) -> Result<(Handle, i64, IntPair)> {
-    let texture = match file_name.as_str() {
-        "" => blank(resolution.unwrap_or([DEFAULT_SIDE; 2]))?,
-        name => of_file(cx, name, resolution.filter(|_| fixed_resolution.0 != 0))?,
+    let is_of_file = !file_name.is_empty();
+    let texture = if is_of_file {
+        of_file(
+            cx,
+            &file_name,
+            resolution.filter(|_| fixed_resolution.0 != 0),
+        )?
+    } else {
+        blank(resolution.unwrap_or([DEFAULT_SIDE; 2]))?
     };
     let [width, height] = texture.size();
     let plane = plane_sizes.unwrap_or([1.0, f64::from(height) / f64::from(width)]);
@@ -86,7 +92,12 @@ fn create_texture(
             .ok_or(SceneError::InvalidData)?,
         frame([x, y, 0.0], [0.0, 0.0, angle])?,
     );
-    let id = cx.scene_mut().textures_mut().add(texture)?;
+    let id = if is_of_file {
+        cx.scene_mut().textures_mut().add(texture)?
+    } else {
+        // Scripts draw on it.
+        cx.scene_mut().textures_mut().add_new(texture)?
+    };
     let options = TextureOptions::from_bits_retain(options.0);
     let mapping = TextureMapping {
         scale,
@@ -151,18 +162,17 @@ fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
 /// The texture with a name: that of its file, without folder and ending.
 ///
 /// @param textureName the first one with that name counts
-/// @return textureId -1 when there is none
+/// @return textureId an error where there is none
 /// @return resolution pixels
 #[api("sim.getTextureId")]
-fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, Option<IntPair>)> {
+fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, IntPair)> {
     let scene = cx.scene();
     let found = scene
         .textures()
         .iter()
         .find(|(_, texture)| texture.name == texture_name);
-    Ok(found.map_or((-1, None), |(id, texture)| {
-        (id, Some(IntPair(texture.size().map(i64::from))))
-    }))
+    let (id, texture) = found.ok_or_else(no_texture)?;
+    Ok((id, IntPair(texture.size().map(i64::from))))
 }
 
 /// The texture on a shape.

@@ -49,7 +49,7 @@ pub enum ColourComponent {
 /// Which meshes of a shape are meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ColourName {
-    /// All meshes; the first one is read.
+    /// All meshes; the last one is read, as of compounds in CoppeliaSim.
     All,
     /// One value per mesh, in order.
     Compound,
@@ -217,14 +217,17 @@ impl Shape {
                     .flat_map(|a| read(a.colour.component(component)))
                     .collect(),
             ),
-            _ => colours.next().map(|a| read(a.colour.component(component))),
+            ColourName::All => colours
+                .next_back()
+                .map(|a| read(a.colour.component(component))),
+            ColourName::Named(_) => colours.next().map(|a| read(a.colour.component(component))),
         }
     }
 
-    /// Colours the meshes called so, or every mesh with its own value.
+    /// Colours the meshes called so, or every mesh with its own value; those without one become black.
     ///
     /// # Errors
-    /// When `value` has too few numbers; nothing is changed then.
+    /// When `value` has too few numbers for one; nothing is changed then.
     fn set_colour(
         &mut self,
         name: &ColourName,
@@ -237,23 +240,20 @@ impl Shape {
         } else {
             0
         };
-        let needed = if each == 0 {
-            width
-        } else {
-            width * self.parts.len()
-        };
-        if value.len() < needed {
+        if value.len() < width {
             return Err(SceneError::InvalidArgument);
         }
+        let black = [0.0; 3];
         for (i, part) in self
             .parts
             .iter_mut()
             .enumerate()
             .filter(|(_, part)| name.covers(&part.appearance))
         {
+            let own = value.get(i * each..).filter(|own| own.len() >= width);
             part.appearance
                 .colour
-                .set_component(component, &value[i * each..]);
+                .set_component(component, own.unwrap_or(&black));
         }
         Ok(())
     }

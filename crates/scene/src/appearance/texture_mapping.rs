@@ -197,6 +197,14 @@ impl Textures {
         if let Some((id, _)) = self.0.iter().find(|(_, other)| **other == texture) {
             return Ok(*id);
         }
+        self.add_new(texture)
+    }
+
+    /// Adds an image of its own and returns its number.
+    ///
+    /// # Errors
+    /// When there are too many.
+    pub fn add_new(&mut self, texture: Texture) -> SceneResult<i64> {
         let id = self
             .0
             .last_key_value()
@@ -306,7 +314,8 @@ fn uses(object: &Object, id: i64) -> bool {
         .is_ok_and(|shape| shape.texture_ids().any(|other| other == id))
 }
 
-fn no_texture() -> SceneError {
+/// The error for a texture that is not there.
+pub fn no_texture() -> SceneError {
     SceneError::Refused("texture does not exist.".into())
 }
 

@@ -91,13 +91,25 @@ impl Joint {
         match mode {
             JointMode::Dependent => self.control = Control::Free,
             JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => {
-                self.dependency = None;
+                self.leave_master();
             }
             JointMode::Dynamic => {
-                self.dependency = None;
+                self.leave_master();
                 self.free_force_of_velocity();
             }
         }
+    }
+
+    /// Follows no joint any more; offset and coefficient stay.
+    pub(crate) fn leave_master(&mut self) {
+        self.idle_law = self.dependency_law();
+        self.dependency = None;
+    }
+
+    /// Offset and coefficient of the dependency, or of the last one.
+    pub fn dependency_law(&self) -> [f64; 2] {
+        self.dependency
+            .map_or(self.idle_law, |law| [law.offset, law.coefficient])
     }
 
     /// Changes the control mode, and the target velocity that belongs to it.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{JointDependency, JointMode, JointType};
+use super::{Joint, JointDependency, JointMode, JointType};
 use crate::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
 
 /// Largest magnitude of offset and coefficient.
@@ -61,7 +61,10 @@ impl Scene {
             offset,
             coefficient,
         });
-        self.modify_joint(handle, |joint| joint.dependency = dependency)?;
+        self.modify_joint(handle, |joint| {
+            joint.dependency = dependency;
+            joint.idle_law = [offset, coefficient];
+        })?;
         self.follow_master(handle)
     }
 
@@ -73,7 +76,7 @@ impl Scene {
         let mut follower = master;
         while let Some(dependency) = self.object(follower)?.joint()?.dependency {
             if dependency.master == handle {
-                return self.modify_joint(follower, |joint| joint.dependency = None);
+                return self.modify_joint(follower, Joint::leave_master);
             }
             follower = dependency.master;
         }

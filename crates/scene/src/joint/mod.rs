@@ -143,6 +143,8 @@ pub struct Joint {
     pub screw_lead: f64,
     /// The joint it follows in dependent mode, and how.
     pub dependency: Option<JointDependency>,
+    /// Offset and coefficient while it follows none: those of its last dependency.
+    pub idle_law: [f64; 2],
     /// How the physics solves it.
     pub solver: JointSolver,
     /// Tagged for explicit handling by a script.
@@ -230,6 +232,7 @@ impl Joint {
             motor_lock: false,
             screw_lead: 0.0,
             dependency: None,
+            idle_law: [0.0, 1.0],
             solver: JointSolver::Exact,
             explicit: false,
             ik: IkSettings {

@@ -207,25 +207,29 @@ impl Scene {
         &mut self.collections
     }
 
-    /// The objects a collection holds now, in the order of their creation.
+    /// The objects a collection holds now, in the order in which they came to it.
     ///
     /// # Errors
     /// When there is none with that handle.
     pub fn collection_objects(&self, handle: i64) -> SceneResult<Vec<Handle>> {
-        let mut members = BTreeSet::new();
+        let mut members = BTreeMap::new();
+        let mut came = 0;
         for item in &self.collections.get(handle)?.items {
             for object in self.item_objects(item) {
                 if item.subtract {
                     members.remove(&object);
                 } else {
-                    members.insert(object);
+                    members.entry(object).or_insert(came);
+                    came += 1;
                 }
             }
         }
-        // Sorting the members costs less than going through all objects of the scene, and sensors need this in each step.
-        let mut in_order: Vec<Handle> = members.into_iter().collect();
-        in_order.sort_by_key(|handle| self.object(*handle).map_or(i64::MAX, crate::Object::uid));
-        Ok(in_order)
+        let mut in_order: Vec<(usize, Handle)> = members
+            .into_iter()
+            .map(|(object, came)| (came, object))
+            .collect();
+        in_order.sort_unstable();
+        Ok(in_order.into_iter().map(|(_, object)| object).collect())
     }
 
     fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {

@@ -66,7 +66,7 @@ impl Object {
         let gone = |h: Handle| removed.contains(&h);
         match &mut self.kind {
             Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => {
-                joint.dependency = None;
+                joint.leave_master();
             }
             Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
             Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,

@@ -92,9 +92,5 @@ fn interval_of(scene: &Scene, handle: Handle) -> SceneResult<[f64; 2]> {
 
 /// Offset and coefficient of the dependency.
 fn law_of(scene: &Scene, handle: Handle) -> SceneResult<[f64; 2]> {
-    Ok(scene
-        .object(handle)?
-        .joint()?
-        .dependency
-        .map_or([0.0, 1.0], |d| [d.offset, d.coefficient]))
+    Ok(scene.object(handle)?.joint()?.dependency_law())
 }
