@@ -80,7 +80,7 @@ fn load_model(
 #[api("sim.saveScene")]
 fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
     let Some(filename) = filename else {
-        return Ok(Data::Buffer(readable_bytes(&cx.scene_file()?, None)?));
+        return Ok(Data::Buffer(readable_bytes(&cx.scene_in_memory()?, None)?));
     };
     cx.save_scene(&filename)?;
     Ok(Data::Int(1))

@@ -10,19 +10,19 @@ use format::ttt::File;
 use scene::Handle;
 
 impl Cx<'_> {
-    /// The scene as a file.
+    /// The scene as a file in memory. Scripts are notified before and after.
     ///
     /// # Errors
     /// When the scene is locked, or its tree is damaged.
-    pub fn scene_file(&self) -> ApiResult<File> {
-        self.sim.scene_file()
+    pub fn scene_in_memory(&mut self) -> ApiResult<File> {
+        self.sim.scene_in_memory()
     }
 
-    /// The model below `base` as a file.
+    /// The model below `base` as a file. Scripts are notified of the copy before and after.
     ///
     /// # Errors
     /// When there is no such object.
-    pub fn model_file(&self, base: Handle) -> ApiResult<File> {
+    pub fn model_file(&mut self, base: Handle) -> ApiResult<File> {
         self.sim.model_file(base)
     }
 

@@ -14,23 +14,39 @@ use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError};
 
 impl Sim {
+    /// The scene as a file in memory. Scripts are notified before and after.
+    ///
+    /// # Errors
+    /// When the scene is locked, or its tree is damaged.
+    pub(crate) fn scene_in_memory(self: &Rc<Self>) -> ApiResult<File> {
+        self.check_unlocked()?;
+        let info = Data::map([("file", Data::text("")), ("regularSave", true.into())]);
+        self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
+        let file = self.scene_file()?;
+        self.broadcast(SysCall::AfterSave, &[info]);
+        Ok(file)
+    }
+
     /// The scene as a file.
     ///
     /// # Errors
     /// When the scene is locked, or its tree is damaged.
-    pub(crate) fn scene_file(&self) -> ApiResult<File> {
+    fn scene_file(&self) -> ApiResult<File> {
         self.check_unlocked()?;
         let scripts = self.scripts_to_save();
         Ok(save::scene(&self.scene.borrow(), &scripts)?)
     }
 
-    /// The model below `base` as a file.
+    /// The model below `base` as a file, which is a copy: scripts are notified before and after.
     ///
     /// # Errors
     /// When there is no such object.
-    pub(crate) fn model_file(&self, base: Handle) -> ApiResult<File> {
-        let scripts = self.scripts_to_save();
-        Ok(save::model(&self.scene.borrow(), base, &scripts)?)
+    pub(crate) fn model_file(self: &Rc<Self>, base: Handle) -> ApiResult<File> {
+        let members = self.scene.borrow().subtree(base);
+        self.with_copy_callbacks(&members, || {
+            let scripts = self.scripts_to_save();
+            Ok(save::model(&self.scene.borrow(), base, &scripts)?)
+        })
     }
 
     /// Writes the scene to a file in the format of its name, which becomes the scene's. Scripts are notified before and after.

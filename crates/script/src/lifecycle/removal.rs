@@ -47,15 +47,9 @@ impl Sim {
         if originals.is_empty() {
             return Ok(BTreeMap::new());
         }
-        let data = self.data_for([SysCall::BeforeCopy, SysCall::AfterCopy], || {
-            Data::map([
-                ("objects", raw(&originals).into()),
-                ("objectHandles", marked(&originals)),
-            ])
-        });
-        self.broadcast(SysCall::BeforeCopy, data.as_slice());
-        let copies = self.scene.borrow_mut().copy_objects(&originals, options)?;
-        self.broadcast(SysCall::AfterCopy, data.as_slice());
+        let copies = self.with_copy_callbacks(&originals, || {
+            Ok(self.scene.borrow_mut().copy_objects(&originals, options)?)
+        })?;
         let created: Vec<Handle> = originals
             .iter()
             .filter_map(|original| copies.get(original).copied())
@@ -65,6 +59,27 @@ impl Sim {
             .for_each(|(original, copy)| self.scripts.copy_attached(*original, *copy));
         self.notify_created(&created);
         Ok(copies)
+    }
+
+    /// Copies objects, of which scripts are notified before and after. Where it fails, no script is notified afterwards.
+    ///
+    /// # Errors
+    /// Those of `copy`.
+    pub(crate) fn with_copy_callbacks<R>(
+        self: &Rc<Self>,
+        originals: &[Handle],
+        copy: impl FnOnce() -> ApiResult<R>,
+    ) -> ApiResult<R> {
+        let data = self.data_for([SysCall::BeforeCopy, SysCall::AfterCopy], || {
+            Data::map([
+                ("objects", raw(originals).into()),
+                ("objectHandles", marked(originals)),
+            ])
+        });
+        self.broadcast(SysCall::BeforeCopy, data.as_slice());
+        let copied = copy()?;
+        self.broadcast(SysCall::AfterCopy, data.as_slice());
+        Ok(copied)
     }
 
     /// Removes objects: their scripts are cleaned up first, and scripts are notified before and after.

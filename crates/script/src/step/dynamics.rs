@@ -24,7 +24,7 @@ impl Sim {
         let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
         let busy = || ApiError::Other("the dynamics are already being handled.".into());
         let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else {
-            return Ok(0);
+            return Ok(self.sub_steps_without_bodies(time_step));
         };
         for number in 1..=call.sub_steps {
             self.dynamics_callback(call, number, false);
@@ -37,6 +37,18 @@ impl Sim {
             .iter()
             .for_each(|trigger| self.force_sensor_triggered(trigger));
         Ok(i64::from(call.sub_steps))
+    }
+
+    /// The number of sub-steps there would be: CoppeliaSim counts them where nothing moves too.
+    fn sub_steps_without_bodies(&self, time_step: f64) -> i64 {
+        let scene = self.scene.borrow();
+        let settings = &scene.settings().dynamics;
+        let takes_time = settings.enabled && time_step.is_finite() && time_step > 0.0;
+        if takes_time {
+            settings.sub_steps(time_step).into()
+        } else {
+            0
+        }
     }
 
     fn with_dynamics<R>(&self, work: impl FnOnce(&mut Dynamics, &mut Scene) -> R) -> Option<R> {
