@@ -41,6 +41,13 @@ impl Drop for Resource {
     }
 }
 
+impl super::Handle {
+    /// What the simulator of the heap has open, by names for users.
+    pub fn open_resources(self) -> Vec<String> {
+        outside(|| open_in(self.address))
+    }
+}
+
 /// What the simulator of a heap has open.
 pub(super) fn open_in(heap: Address) -> Vec<String> {
     let at = heap.general().addr();

@@ -1,4 +1,6 @@
 //! Access of a test to its simulator, and its results for the test runner.
+//!
+//! A bench lies outside of the simulator's memory, which `t.branch` brings back: what tests leave on it stays.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -6,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
+
+use heap::outside;
 
 use super::coverage::LineCounts;
 use super::log::console::{Console, LogLine, OutputStream};
@@ -183,8 +187,7 @@ pub struct TestBench {
     pub run_apart: Option<RunApart>,
     /// The test's file, once a simulator has compiled it.
     pub compiled: RefCell<Option<CompiledFile>>,
-    /// What the test compares with recordings.
-    pub goldens: RefCell<Vec<Golden>>,
+    goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.
     unfinished: [RefCell<Vec<u8>>; 2],
@@ -232,9 +235,23 @@ impl TestBench {
             .collect()
     }
 
+    /// Leaves something to be compared with what was recorded.
+    pub fn add_golden(&self, golden: &Golden) {
+        outside(|| self.goldens.borrow_mut().push(golden.clone()));
+    }
+
+    /// Hands over what the test compares with recordings.
+    pub fn take_goldens(&self) -> Vec<Golden> {
+        self.goldens.take()
+    }
+
     /// Lua code was stopped; the first time counts, since code that catches the error is stopped again.
     pub(crate) fn note_interruption(&self, trace: impl FnOnce() -> String) {
-        self.interruption.borrow_mut().get_or_insert_with(trace);
+        let mut interruption = self.interruption.borrow_mut();
+        if interruption.is_none() {
+            let trace = trace();
+            *interruption = outside(|| Some(trace.clone()));
+        }
     }
 
     /// Lua's traceback when it was stopped.

@@ -194,7 +194,7 @@ impl Session {
             outcome.message.clone_from(&line.text);
         }
         (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
-        outcome.goldens = self.bench.goldens.take();
+        outcome.goldens = self.bench.take_goldens();
         outcome.console = self.bench.take_lines();
         self.explain_interruption(&mut outcome);
         outcome

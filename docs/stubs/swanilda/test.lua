@@ -20,6 +20,8 @@
 ---     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
 ---     t.at(time, fn)              calls a function when the simulation reaches that time
 ---     t.start(), t.stop(), t.time()
+---     t.branch(fn, ...)           calls fn(...), and undoes all it did: scene, scripts, physics, random numbers, and variables of the test are as
+---                                 before. Returns what fn returned: plain values. What it printed stays; what it wrote to files too
 ---     t.hash()                    hash of the state that scripts can observe, a text: the same after the same steps of the same scene
 ---
 --- Runs of their own
@@ -74,6 +76,11 @@ function t.answer(dialog, value) end
 ---@param time number
 ---@param fn function
 function t.at(time, fn) end
+
+---@param fn function
+---@param ... any
+---@return any result
+function t.branch(fn, ...) end
 
 function t.dialogs() end
 

@@ -17,6 +17,8 @@ Time
     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
     t.at(time, fn)              calls a function when the simulation reaches that time
     t.start(), t.stop(), t.time()
+    t.branch(fn, ...)           calls fn(...), and undoes all it did: scene, scripts, physics, random numbers, and variables of the test are as
+                                before. Returns what fn returned: plain values. What it printed stays; what it wrote to files too
     t.hash()                    hash of the state that scripts can observe, a text: the same after the same steps of the same scene
 
 Runs of their own
@@ -139,6 +141,22 @@ function t.allow_script_errors(allowed) allowErrors = allowed ~= false end
 function t.time() return sim.getSimulationTime() end
 
 function t.hash() return native.hash() end
+
+-- @api ... = swanilda.test.branch(func fn, ...)
+function t.branch(fn, ...)
+    local args = table.pack(...)
+    -- Errors keep their values: tables of luassert, for example.
+    local results, failure = native.branch(function()
+        local outcome = table.pack(pcall(fn, table.unpack(args, 1, args.n)))
+        if not outcome[1] and type(outcome[2]) ~= 'table' then outcome[2] = tostring(outcome[2]) end
+        return outcome.n, table.unpack(outcome, 1, outcome.n)
+    end)
+    -- What it has printed was seen.
+    seenLines = seenLines + #native.lines(seenLines)
+    if failure then error(failure, 2) end
+    if not results[2] then error(results[3], 0) end
+    return table.unpack(results, 3, results[1] + 1)
+end
 
 local function isAdvancing() return sim.getSimulationState() & sim.simulation_advancing ~= 0 end
 

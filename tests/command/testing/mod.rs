@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+mod branches;
 mod coverage;
 mod failures;
 mod goldens;

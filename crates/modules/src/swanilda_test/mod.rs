@@ -1,5 +1,6 @@
 //! The native part of `swanilda.test`: control of the simulator by a test.
 
+mod branch;
 mod button_interfaces;
 mod run;
 mod windows;
@@ -9,13 +10,19 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
+use branch::Branches;
 use scene::{Data, Handle, Key};
 use script::test_bench::{
     ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace,
 };
 
 pub(super) static MODULE: Module = Module {
-    inner: &[FUNCTIONS, run::FUNCTIONS, windows::FUNCTIONS],
+    inner: &[
+        FUNCTIONS,
+        branch::FUNCTIONS,
+        run::FUNCTIONS,
+        windows::FUNCTIONS,
+    ],
     ..Module::new("swanilda.test")
 };
 
@@ -42,7 +49,8 @@ fn is_test(cx: &Cx) -> Result<bool> {
 #[api("swanilda.test.iterate")]
 fn iterate(cx: &mut Cx) -> Result<()> {
     bench(cx)?;
-    if cx.call_depth() > 1 {
+    let branches = cx.module_state::<Branches>().depth.get();
+    if cx.call_depth() > 1 + branches {
         return Err(ApiError::Other(
             "a step cannot be made from within a step.".into(),
         ));
@@ -145,7 +153,7 @@ fn golden(cx: &mut Cx, name: String, columns: Data, rows: Data, tolerances: Data
         tolerances: tolerances_of(&tolerances),
     };
     let golden = Golden { name, content };
-    bench(cx)?.goldens.borrow_mut().push(golden);
+    bench(cx)?.add_golden(&golden);
     Ok(())
 }
 
@@ -170,7 +178,7 @@ fn image(cx: &mut Cx, name: String, sensor: Handle, tolerance: f64, share: f64) 
         tolerance: tolerance as u8,
         share,
     };
-    bench(cx)?.goldens.borrow_mut().push(Golden {
+    bench(cx)?.add_golden(&Golden {
         name,
         content: GoldenContent::Image(snapshot),
     });

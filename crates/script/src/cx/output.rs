@@ -30,6 +30,17 @@ impl Cx<'_> {
         self.sim.log.errors()
     }
 
+    /// What the simulator has open that is no memory, by names for users.
+    pub fn open_resources(&self) -> Vec<String> {
+        self.sim.open_resources()
+    }
+
+    /// What `work` computes, in the memory of the program. All that it did is undone: see [`Sim::undone`](crate::Sim::undone).
+    pub fn undone<T: Clone>(&self, work: impl FnOnce() -> T) -> heap::Outer<T> {
+        let sim = &self.sim;
+        heap::Outer::new(sim.undone(|| sim.copied_out(|_| work())))
+    }
+
     /// The connection to the test runner, if this is a test.
     pub fn test_bench(&self) -> Option<&Rc<TestBench>> {
         self.sim.test_bench.get()

@@ -231,18 +231,30 @@ impl Sim {
 
     /// Does something in the midst of code, and undoes it: the memory of the simulator is what it was before. The tape gives nothing meanwhile.
     /// `work` keeps nothing of that memory.
-    #[expect(unsafe_code, reason = "memory is brought back")]
     pub fn without_trace<T>(self: &Rc<Self>, work: impl FnOnce() -> T) -> T {
         let tape = self.options.permissions.tape();
-        let moment = heap::Handle::of(&**self).map(heap::Handle::moment);
         tape.suspend(true);
-        let result = heap::outside(work);
+        let result = self.undone(work);
         tape.suspend(false);
+        result
+    }
+
+    /// The same, with the tape as ever: what `work` reads from outside is a part of the run.
+    #[expect(unsafe_code, reason = "memory is brought back")]
+    pub fn undone<T>(self: &Rc<Self>, work: impl FnOnce() -> T) -> T {
+        let moment = heap::Handle::of(&**self).map(heap::Handle::moment);
+        let result = heap::outside(work);
         if let Some(moment) = moment {
-            // SAFETY: the code inside has stood still on the stack below, and `work` is over; a debugger keeps nothing inside.
+            // SAFETY: the code inside has stood still on the stack below, and `work` is over; what it returns lies outside.
             unsafe { moment.bring_back() };
         }
         result
+    }
+
+    /// What is open that is no memory, by names for users.
+    pub fn open_resources(&self) -> Vec<String> {
+        let heap = heap::Handle::of(self);
+        heap.map(heap::Handle::open_resources).unwrap_or_default()
     }
 
     /// Ends the code that runs, with errors, so that another moment can be brought back. What comes until then does not count.
