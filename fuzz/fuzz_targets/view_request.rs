@@ -22,7 +22,10 @@ fuzz_target!(|bytes: &[u8]| {
             assert_eq!(id, sent["id"]);
             match action {
                 Action::Speed(factor) => assert!((0.0..=100.0).contains(&factor)),
-                Action::Step(count) => assert!((1..=1_000_000).contains(&count)),
+                Action::Step(count) => {
+                    assert!(count != 0 && (-1_000_000..=1_000_000).contains(&count));
+                }
+                Action::Seek(frame) => assert_eq!(Some(frame as u64), sent["frame"].as_u64()),
                 Action::Select(handles) | Action::Watch(handles) => {
                     assert_eq!(Some(handles.len()), sent["handles"].as_array().map(Vec::len));
                 }

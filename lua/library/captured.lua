@@ -5,7 +5,7 @@ before restricted.lua. Internal.
 ]]
 
 local native = ...
-local replaying = native.replaying()
+local replaying = native.replaying -- not any more when a replay goes on live
 local enter, leave, put, take, content, lacks = native.enter, native.leave, native.put, native.take, native.content, native.lacks
 local load, pcall, error, type, select, unpack, pack = load, pcall, error, type, select, table.unpack, table.pack
 local methods = getmetatable(io.stdout).__index
@@ -23,7 +23,8 @@ end
 
 -- The results of a call, or its error for the script: callers are left by a tail call.
 local function finished(results, name)
-    if results[1] then return unpack(results, 2, results.n) end
+    -- Each of the functions has a result; pcall (base.lua) returns no nil at the end.
+    if results[1] then return unpack(results, 2, results.n > 2 and results.n or 2) end
     local reason = results[2]
     -- Lua does not find the names of functions in front of which others stand.
     if name and type(reason) == 'string' then reason = reason:gsub("^(bad argument #%d+ to )'%?'", "%1'" .. name .. "'") end
@@ -32,8 +33,8 @@ end
 
 local function outside(kind, original)
     return function(...)
-        local results = replaying and pack(take(kind)) or called(original, ...)
-        if not replaying then put(kind, unpack(results, 1, results.n)) end
+        local results = replaying() and pack(take(kind)) or called(original, ...)
+        if not replaying() then put(kind, unpack(results, 1, results.n)) end
         return finished(results, kind)
     end
 end
@@ -58,7 +59,7 @@ local function isName(value) return type(value) == 'string' or type(value) == 'n
 local function open(name, mode)
     local kind = 'opening ' .. (isName(name) and name or '?')
     local text = isName(mode) and tostring(mode) or 'r'
-    if replaying then
+    if replaying() then
         local results = pack(take(kind))
         if results[2] ~= 'file' then return results end
         return {true, scratch(results[3] and content(name) or '', text:find '^a'), n = 2}
@@ -88,8 +89,8 @@ local function closed(file)
     if not outcome then return finished(pack(pcall(close, file)), 'close') end
     outcomes[file] = nil
     if outcome == true then
-        local results = replaying and pack(take 'the end of a program') or called(close, file)
-        if replaying then close(file) else put('the end of a program', unpack(results, 1, results.n)) end
+        local results = replaying() and pack(take 'the end of a program') or called(close, file)
+        if replaying() then close(file) else put('the end of a program', unpack(results, 1, results.n)) end
         return finished(results)
     end
     close(file)
@@ -116,7 +117,7 @@ local function popen(command, mode)
     local kind = 'running ' .. (isName(command) and command or '?')
     local reads = mode == nil or tostring(mode):find '^r'
     local results, file
-    if replaying then
+    if replaying() then
         results = pack(take(kind))
         if not results[1] or results[2] == nil then return results end
         if not reads then file = scratch '' end
@@ -209,7 +210,7 @@ for place = 4, 5 do
         local path, message = searchpath(root, package.cpath)
         if not path then return message end
         lacks('the native library ' .. path)
-        if replaying then error('the native library ' .. path .. ' is not part of the capture', 0) end
+        if replaying() then error('the native library ' .. path .. ' is not part of the capture', 0) end
         return original(name)
     end
 end

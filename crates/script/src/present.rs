@@ -64,6 +64,12 @@ impl Sim {
         self.watching().watcher.replace(watcher.map(Outer::new));
     }
 
+    /// Keeps lines and messages from now on, for [`with_present`](Self::with_present).
+    pub fn keep_happenings(&self) {
+        self.log.keep_recent();
+        self.app.borrow().broadcasts.want(true);
+    }
+
     fn watching(&self) -> Rc<Watching> {
         self.modules.states.get()
     }

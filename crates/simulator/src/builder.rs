@@ -18,6 +18,7 @@ pub struct Builder {
     modules: Vec<UserModule>,
     python: Option<Rc<dyn PythonHost>>,
     debugger: Option<Rc<dyn Debugger>>,
+    is_observed: bool,
 }
 
 impl Default for Builder {
@@ -28,6 +29,7 @@ impl Default for Builder {
             modules: Vec::new(),
             python: None,
             debugger: None,
+            is_observed: false,
         }
     }
 }
@@ -111,6 +113,14 @@ impl Builder {
         }
     }
 
+    /// Keeps what happens from the beginning, for [`Simulator::take_happenings`].
+    pub fn observed(self) -> Self {
+        Self {
+            is_observed: true,
+            ..self
+        }
+    }
+
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
         let Self {
@@ -119,6 +129,7 @@ impl Builder {
             modules,
             python,
             debugger,
+            is_observed,
         } = self;
         let parts = Contained::new(|| {
             let native_scripts = Rc::<NativeScripts>::default();
@@ -136,6 +147,9 @@ impl Builder {
             if let Some(debugger) = debugger {
                 // The simulator was just made, so it has none.
                 let _ = sim.scripts.debugger.set(debugger);
+            }
+            if is_observed {
+                sim.keep_happenings();
             }
             Parts {
                 native_scripts,

@@ -49,7 +49,7 @@ pub use script::{
     CacheFolder, ChangedValue, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost,
     RosOptions, ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
 };
-pub use viewing::{PropertyRow, property_rows, property_setter};
+pub use viewing::{Happenings, PropertyRow, property_rows, property_setter};
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,11 +1,12 @@
 //! What viewers and recorders see of a simulator, and do to it.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::Simulator;
 use dynamics::Contact;
 use scene::object::script_object::ScriptType;
-use scene::{Data, Scene, ValueType};
+use scene::{Data, Handle, Scene, ValueType};
 use script::log::RecentLine;
 use script::property_table::flags;
 use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher};
@@ -23,6 +24,19 @@ pub struct PropertyRow {
     pub value: Data,
     /// Whether scripts can set it.
     pub is_writable: bool,
+}
+
+/// What scripts and physics have done, for those who watch a run.
+#[derive(Debug, Clone, Default)]
+pub struct Happenings {
+    /// Lines of the log and prints since the last time.
+    pub lines: Vec<RecentLine>,
+    /// The names of all signals there are.
+    pub signals: BTreeSet<String>,
+    /// Names of the messages that scripts sent to all others since the last time.
+    pub broadcasts: Vec<String>,
+    /// Shapes that touched each other in the last sub-step of the physics, the smaller handle first.
+    pub contacts: BTreeSet<[Handle; 2]>,
 }
 
 /// Properties whose value is long, or expensive, or is another one each time it is read.
@@ -51,6 +65,18 @@ impl Simulator {
     /// Lines of the log and prints since the last call.
     pub fn take_recent_lines(&self) -> Vec<RecentLine> {
         self.copied(|sim| sim.log.take_recent())
+    }
+
+    /// Lines, signals, messages and contacts up to now. Lines and messages are kept from [`Builder::observed`](super::Builder::observed) on.
+    pub fn take_happenings(&self) -> Happenings {
+        self.copied(|sim| {
+            sim.with_present(|present| Happenings {
+                lines: present.lines.clone(),
+                signals: present.signals.clone(),
+                broadcasts: present.broadcasts.clone(),
+                contacts: present.contacts.clone(),
+            })
+        })
     }
 
     /// Sets the function that shows dialogs of scripts to users and returns their answers.

@@ -23,6 +23,7 @@ mod viewer;
 
 pub use busy::BusySign;
 pub use server::page_file;
+pub use viewer::CaptureViewer;
 pub use viewer::RecordedViewer;
 pub use viewer::Viewer;
 pub use viewer::replay_requests;

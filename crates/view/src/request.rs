@@ -8,7 +8,7 @@ const MAX_TEXT_LENGTH: usize = 100_000;
 /// Handles in one request.
 const MAX_HANDLES: usize = 100_000;
 /// Steps of one request.
-const MAX_STEPS: u64 = 1_000_000;
+const MAX_STEPS: i64 = 1_000_000;
 
 /// What a page asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +16,12 @@ pub(crate) enum Action {
     Play,
     Pause,
     Stop,
-    Step(u64),
+    /// So many steps, below zero back.
+    Step(i64),
+    /// To a place on the timeline of a capture.
+    Seek(usize),
+    /// Goes on from the moment of a capture that is shown.
+    Live,
     /// Beside the wall clock; 0 for as fast as possible.
     Speed(f64),
     Select(Vec<i64>),
@@ -85,6 +90,8 @@ impl Action {
             Self::Pause => json!({ "do": "pause" }),
             Self::Stop => json!({ "do": "stop" }),
             Self::Step(count) => json!({ "do": "step", "count": count }),
+            Self::Seek(frame) => json!({ "do": "seek", "frame": frame }),
+            Self::Live => json!({ "do": "live" }),
             Self::Speed(factor) => json!({ "do": "speed", "factor": factor }),
             Self::Select(handles) => json!({ "do": "select", "handles": handles }),
             Self::Inspect(handle) => json!({ "do": "inspect", "handle": handle.unwrap_or(-1) }),
@@ -119,6 +126,14 @@ impl Action {
                 | Self::Watch(_)
                 | Self::Show { .. }
                 | Self::Graph(_)
+        )
+    }
+
+    /// Whether it goes to another moment of a capture, which changes nothing.
+    pub(crate) fn moves_in_time(&self) -> bool {
+        matches!(
+            self,
+            Self::Play | Self::Pause | Self::Stop | Self::Step(_) | Self::Speed(_) | Self::Seek(_)
         )
     }
 }
@@ -159,6 +174,8 @@ fn action(members: &Members) -> Result<Action, String> {
         "pause" => Action::Pause,
         "stop" => Action::Stop,
         "step" => Action::Step(count(members)?),
+        "seek" => Action::Seek(frame(members)?),
+        "live" => Action::Live,
         "speed" => Action::Speed(factor(members)?),
         "select" => Action::Select(handles(members)?),
         "inspect" => Action::Inspect(Some(handle(members)?).filter(|handle| *handle != -1)),
@@ -203,16 +220,19 @@ fn shortened(text: &str) -> &str {
         .map_or(text, |(end, _)| &text[..end])
 }
 
-fn count(members: &Members) -> Result<u64, String> {
-    match members.get("count") {
-        None => Ok(1),
-        Some(count) => {
-            let count = count
-                .as_u64()
-                .filter(|count| (1..=MAX_STEPS).contains(count));
-            count.ok_or_else(|| format!("`count` is a whole number, 1 to {MAX_STEPS}"))
-        }
-    }
+fn count(members: &Members) -> Result<i64, String> {
+    let Some(count) = members.get("count") else {
+        return Ok(1);
+    };
+    let is_count = |count: &i64| *count != 0 && (-MAX_STEPS..=MAX_STEPS).contains(count);
+    let count = count.as_i64().filter(is_count);
+    count.ok_or_else(|| format!("`count` is a whole number, 1 to {MAX_STEPS}, or below zero"))
+}
+
+fn frame(members: &Members) -> Result<usize, String> {
+    let frame = members.get("frame").and_then(Value::as_u64);
+    let frame = frame.and_then(|frame| usize::try_from(frame).ok());
+    frame.ok_or_else(|| "`frame` is a whole number, zero or more".to_owned())
 }
 
 fn factor(members: &Members) -> Result<f64, String> {
@@ -312,6 +332,12 @@ mod tests {
             r#"{"id":1,"do":5}"#,
             r#"{"id":1,"do":"step","count":0}"#,
             r#"{"id":1,"do":"step","count":1e99}"#,
+            r#"{"id":1,"do":"step","count":-1000001}"#,
+            r#"{"id":1,"do":"step","count":-9223372036854775808}"#,
+            r#"{"id":1,"do":"seek"}"#,
+            r#"{"id":1,"do":"seek","frame":-1}"#,
+            r#"{"id":1,"do":"seek","frame":1.5}"#,
+            r#"{"id":1,"do":"seek","frame":"1"}"#,
             r#"{"id":1,"do":"speed","factor":-1}"#,
             r#"{"id":1,"do":"speed","factor":1e999}"#,
             r#"{"id":1,"do":"select","handles":[1,"2"]}"#,
@@ -335,6 +361,9 @@ mod tests {
             r#"{"id":1,"do":"pause"}"#,
             r#"{"id":1,"do":"stop"}"#,
             r#"{"id":1,"do":"step","count":3}"#,
+            r#"{"id":1,"do":"step","count":-3}"#,
+            r#"{"id":1,"do":"seek","frame":7}"#,
+            r#"{"id":1,"do":"live"}"#,
             r#"{"id":1,"do":"speed","factor":0.25}"#,
             r#"{"id":1,"do":"select","handles":[3,4]}"#,
             r#"{"id":1,"do":"inspect","handle":-1}"#,

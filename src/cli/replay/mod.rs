@@ -22,7 +22,7 @@ use super::setup::Setup;
 use super::{Cli, Command, Outcome, complain};
 pub(super) use command_loop::CommandLoop;
 use moments::MomentArgs;
-pub(super) use open::{is_capture, open};
+pub(super) use open::{is_capture, open, tests_of};
 
 /// Exit code when the run differs from its capture.
 const DIFFERS: u8 = 1;
@@ -79,13 +79,7 @@ pub(super) fn replay(args: &Args) -> Outcome {
 
 impl Args {
     fn warn_of_version(&self, header: &Header) {
-        let own = env!("CARGO_PKG_VERSION");
-        if header.version != own && !self.quiet {
-            complain(&format!(
-                "the run was captured by version {}, and this is {own}: it may differ",
-                header.version
-            ));
-        }
+        warn_of_version(header, self.quiet);
     }
 
     /// Performs the captured command; an error in the first place when captures have no such command.
@@ -121,6 +115,17 @@ impl Args {
         setup.json = self.json;
         setup.quiet = self.quiet;
         setup.for_replay(self.threads);
+    }
+}
+
+/// Says that a capture is of another version, which may run differently.
+pub(super) fn warn_of_version(header: &Header, is_quiet: bool) {
+    let own = env!("CARGO_PKG_VERSION");
+    if header.version != own && !is_quiet {
+        complain(&format!(
+            "the run was captured by version {}, and this is {own}: it may differ",
+            header.version
+        ));
     }
 }
 

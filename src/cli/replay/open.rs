@@ -17,6 +17,21 @@ pub(in crate::cli) fn is_capture(path: &Path) -> bool {
     )
 }
 
+/// The command, the header and the tape of a capture of tests; None for other captures.
+///
+/// # Errors
+/// When the file cannot be read.
+pub(in crate::cli) fn tests_of(
+    path: &Path,
+) -> Result<Option<(crate::cli::test::Args, Header, Tape)>, String> {
+    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
+    let (tape, header) = Tape::replaying(path).map_err(|error| unreadable(error.to_string()))?;
+    Ok(match command(&header).map_err(unreadable)? {
+        Command::Test(test) => Some((test, header, tape)),
+        _ => None,
+    })
+}
+
 /// The run of a capture, at its beginning. `build` adds a console, and a debugger if there is one.
 ///
 /// # Errors

@@ -38,6 +38,9 @@ impl Live {
 
     /// One loop iteration, then a rest until there is something to do.
     pub(in crate::cli) fn iterate(&mut self, sim: &mut Simulator) {
+        if let Some(viewer) = self.viewer.as_mut().filter(|viewer| viewer.is_held()) {
+            return viewer.attend(sim, FRAME_INTERVAL);
+        }
         let steps = sim.steps();
         sim.iterate();
         let timeout = if !sim.state().is_advancing() {

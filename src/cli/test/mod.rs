@@ -173,6 +173,26 @@ pub(super) fn print(outcome: &Outcome, failed: &str) {
     }
 }
 
+/// Runs the tests of a capture again, and records those that fail in a folder. The recording of the last one, and what is wrong with it.
+///
+/// # Errors
+/// When it is no capture of tests, or nothing fails.
+pub(super) fn record(
+    args: &Args,
+    header: &Header,
+    tape: &Tape,
+    folder: &Path,
+) -> Result<(PathBuf, String), String> {
+    let mut config = args.config(&Interrupt::none());
+    (config.record_failures, config.coverage) = (Some(folder.to_owned()), None);
+    let failed = testing::replay(&config, header, tape)?
+        .into_iter()
+        .rfind(testing::Outcome::is_bad)
+        .ok_or("the test of the capture passes now: there is nothing to show")?;
+    let page = failed.recording.ok_or(failed.message.clone())?;
+    Ok((page.with_extension("swr"), failed.message))
+}
+
 fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, String> {
     let watch = Watch::new(&config.paths).map_err(|error| error.to_string())?;
     let mut code = run(args, config)?;

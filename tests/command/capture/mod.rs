@@ -160,7 +160,7 @@ fn a_replay_asks_nobody() {
 fn a_capture_changes_nothing_that_scripts_see() {
     let code = "sim = require 'sim'
         print(pcall(io.lines, 'nothing.txt'))
-        print(pcall(os.getenv))
+        print(pcall(os.getenv), select('#', os.getenv 'NOTHING'))
         print(pcall(os.time, {}))
         print(pcall(loadfile, 'nothing.lua'))
         print(select('#', os.remove 'nothing.txt'), io.open 'nothing.txt')

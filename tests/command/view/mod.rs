@@ -9,6 +9,7 @@ pub mod page;
 mod recorded;
 pub mod served;
 mod stream;
+mod timeline;
 
 use page::{Page, get, raw, send};
 use serde_json::{Value, json};

@@ -442,7 +442,7 @@ pub const INPUTS: &[(&str, &str)] = &[
         "whether Python starts",
     ),
     ("crates/simulator/src/servers.rs", "addresses of servers"),
-    ("crates/view/src/viewer.rs", "requests of pages"),
+    ("crates/view/src/viewer/mod.rs", "requests of pages"),
     ("src/cli/run/mod.rs", "requests to end the program"),
     ("src/cli/session/live.rs", "requests to end the program"),
     (

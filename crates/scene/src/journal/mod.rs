@@ -158,7 +158,8 @@ impl Journal {
         changed
     }
 
-    fn total_of(&self, topics: Topics) -> u64 {
+    /// How many changes there were about some topics.
+    pub fn total_of(&self, topics: Topics) -> u64 {
         topics.indices().map(|index| self.totals[index]).sum()
     }
 

@@ -31,6 +31,8 @@ pub(crate) struct Changes {
     pub(super) lists: Vec<(&'static str, Arc<str>)>,
     pub(super) selection: Option<Vec<i64>>,
     pub(super) log: Vec<Arc<str>>,
+    /// The lines take the place of all that the reader has.
+    pub(super) is_log_anew: bool,
     /// A message.
     pub(super) poses: Option<Vec<u8>>,
 }
@@ -67,6 +69,9 @@ impl Changes {
         }
         if let Some(selection) = &self.selection {
             list(&mut text, "selection", selection);
+        }
+        if self.is_log_anew {
+            member(&mut text, "logBegins", "true");
         }
         self.list(&mut text, "log", &self.log);
         let is_empty = text.len() == empty && !self.is_snapshot;

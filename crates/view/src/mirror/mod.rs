@@ -49,6 +49,8 @@ pub(crate) struct Mirror {
     poses: Poses,
     selection: (Revision, Vec<i64>),
     log: VecDeque<(Revision, Arc<str>)>,
+    /// Readers that saw an older state forget the lines they have.
+    log_begun: Revision,
     blobs: BTreeMap<Hash, UsedBlob>,
     on_demand: OnDemand,
 }
@@ -145,10 +147,7 @@ impl Mirror {
 
     /// The dialog that waits for a person, as JSON; null for none.
     pub(crate) fn show_question(&mut self, question: &serde_json::Value) {
-        let next = self.revision + 1;
-        if self.apply_list("question", question.to_string().into(), next) {
-            self.revision = next;
-        }
+        self.show_list("question", &question.to_string());
     }
 
     fn retain(&mut self, blob: &Arc<Blob>, next: Revision) {
@@ -197,6 +196,28 @@ impl Mirror {
         changed
     }
 
+    /// More lines of the log, or others in place of those before.
+    pub(crate) fn show_lines(&mut self, lines: Vec<String>, are_more: bool) {
+        let next = self.revision + 1;
+        if !are_more {
+            self.log.clear();
+            self.log_begun = next;
+        }
+        if self.apply_log(lines, next) || !are_more {
+            self.revision = next;
+        }
+    }
+
+    /// Sets what pages get whole whenever it changes: JSON, and its name in messages. Returns whether it did.
+    pub(crate) fn show_list(&mut self, name: &'static str, list: &str) -> bool {
+        let next = self.revision + 1;
+        let is_new = self.apply_list(name, list.into(), next);
+        if is_new {
+            self.revision = next;
+        }
+        is_new
+    }
+
     /// The bytes of a blob that is shown.
     pub(crate) fn blob(&self, hash: Hash) -> Option<Arc<Blob>> {
         self.blobs.get(&hash).map(|used| Arc::clone(&used.blob))
@@ -219,10 +240,13 @@ impl Mirror {
         let is_snapshot = seen < self.begun || seen == 0;
         let since = if is_snapshot { 0 } else { seen };
         let newer = |entry: &(Revision, Arc<str>)| (entry.0 > since).then(|| Arc::clone(&entry.1));
-        let new_lines = self.log.partition_point(|(revision, _)| *revision <= since);
+        let is_log_anew = !is_snapshot && since < self.log_begun;
+        let known = if is_log_anew { 0 } else { since };
+        let new_lines = self.log.partition_point(|(revision, _)| *revision <= known);
         Some(Changes {
             revision: self.revision,
             is_snapshot,
+            is_log_anew,
             scene: newer(&self.scene),
             objects: self
                 .objects

@@ -22,6 +22,8 @@ impl Observer {
         if seen == drawings.last_change() && !all {
             return (Vec::new(), Vec::new());
         }
+        // What goes back has drawing objects that were as they are now before they were seen.
+        let all = all || self.reread.is_some();
         let changed = drawings
             .iter()
             .filter(|(_, drawing)| all || drawing.changed_at() > seen);

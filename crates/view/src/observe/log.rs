@@ -8,7 +8,7 @@ use script::log::RecentLine;
 const MAX_CHARACTERS: usize = 20_000;
 
 /// A line as JSON.
-pub(super) fn describe(line: &RecentLine) -> String {
+pub(crate) fn describe(line: &RecentLine) -> String {
     let mut value = json!({
         "time": line.time, "level": line.level_name(), "origin": line.origin, "text": shortened(line.located.as_ref().unwrap_or(&line.text)),
     });

@@ -13,9 +13,11 @@ use scene::shape::Part;
 /// Blobs of meshes and images that are shown.
 #[derive(Default)]
 pub(super) struct Meshes {
-    meshes: BTreeMap<Key, (Part, Arc<Blob>)>,
+    meshes: BTreeMap<Key, (Option<Part>, Arc<Blob>)>,
     /// By the address of the pixels.
-    images: BTreeMap<usize, (Texture, Arc<Blob>)>,
+    images: BTreeMap<usize, (Option<Texture>, Arc<Blob>)>,
+    /// Addresses mean the same until [`forget`](Self::forget): nothing of the simulator is kept.
+    pub(super) keeps_nothing: bool,
     /// There were new ones since those without use were dropped.
     has_new: bool,
 }
@@ -62,10 +64,11 @@ impl Meshes {
         let edges = part.appearance.edges.then_some(part.appearance.edge_angle);
         self.has_new = true;
         // The copy of the part keeps the addresses in use while they are a key.
+        let kept = || (!self.keeps_nothing).then(|| part.clone());
         let (_, blob) = self
             .meshes
             .entry(Key::of(part, edges))
-            .or_insert_with(|| (part.clone(), Blob::mesh(part, edges)));
+            .or_insert_with(|| (kept(), Blob::mesh(part, edges)));
         Arc::clone(blob)
     }
 
@@ -86,11 +89,18 @@ impl Meshes {
         let texture = scene.textures().get(id).ok()?;
         self.has_new = true;
         let at = texture.pixels().as_ptr() as usize;
+        let kept = || (!self.keeps_nothing).then(|| texture.clone());
         let (_, blob) = self
             .images
             .entry(at)
-            .or_insert_with(|| (texture.clone(), Blob::texture(texture)));
+            .or_insert_with(|| (kept(), Blob::texture(texture)));
         Some(Arc::clone(blob))
+    }
+
+    /// Forgets all blobs: the addresses may be those of others now.
+    pub(super) fn forget(&mut self) {
+        self.meshes.clear();
+        self.images.clear();
     }
 
     /// Forgets blobs that no object shows any more.

@@ -11,6 +11,7 @@ mod members;
 mod meshes;
 mod moved;
 mod path_lines;
+mod reread;
 mod scene;
 #[cfg(test)]
 mod tests;
@@ -24,14 +25,16 @@ use script::log::RecentLine;
 
 use super::blobs::Blob;
 pub(crate) use button_interfaces::handle_of;
+pub(crate) use log::describe as describe_line;
 use meshes::Meshes;
 use moved::Moved;
 use path_lines::PathLines;
-pub(crate) use scene::{RECORDING, Source};
+use reread::Reread;
+pub(crate) use scene::{Played, RECORDING, Source};
 pub(crate) use windows::{ObservedWindows, WindowObserver};
 
 /// Changes of what pages show.
-const SHOWN: Topics = Topics::TREE
+pub(crate) const SHOWN: Topics = Topics::TREE
     .with(Topic::Selection)
     .with(Topic::Settings)
     .with_fields(&[
@@ -104,6 +107,8 @@ struct ScriptError {
 #[derive(Default)]
 pub(crate) struct Observer {
     cursor: Option<Cursor>,
+    /// Of an observer that does not use the journal.
+    reread: Option<Reread>,
     /// The scene it has read, by its identifier.
     scene_uid: Option<i64>,
     /// Places of objects among their siblings.
@@ -142,6 +147,7 @@ impl Observer {
         if is_another_scene {
             *self = Self {
                 scene_uid: self.scene_uid,
+                reread: self.reread.as_ref().map(|_| Reread::default()),
                 ..Self::default()
             };
         }
@@ -171,7 +177,9 @@ impl Observer {
         Observation {
             is_another_scene,
             is_complete: complete,
-            poses: self.moved.poses(scene, &concerned.moved, complete),
+            poses: self
+                .moved
+                .poses(scene, &concerned.moved, complete || self.reread.is_some()),
             objects: self.describe_all(scene, &concerned.objects),
             removed: concerned.removed.into_iter().collect(),
             drawings,
@@ -197,22 +205,28 @@ impl Observer {
     /// What the journal says.
     fn read_journal(&mut self, scene: &Scene) -> Concerned {
         let mut concerned = Concerned::default();
+        if self.reread.is_some() {
+            self.reread(scene, &mut concerned);
+            return concerned;
+        }
         let cursor = self
             .cursor
             .get_or_insert_with(|| scene.journal().follow(SHOWN));
         match scene.journal().read(cursor) {
-            Unread::Everything => {
-                concerned.is_complete = true;
-                concerned
-                    .objects
-                    .extend(scene.objects().map(::scene::Object::handle));
-                self.places.clear();
-                self.restless.retain(|handle| scene.exists(*handle));
-            }
+            Unread::Everything => self.concern_everything(scene, &mut concerned),
             Unread::Changes(changes) => changes.for_each(|change| concerned.note(change)),
         }
         concerned.objects.retain(|handle| scene.exists(*handle));
         concerned
+    }
+
+    fn concern_everything(&mut self, scene: &Scene, concerned: &mut Concerned) {
+        concerned.is_complete = true;
+        concerned
+            .objects
+            .extend(scene.objects().map(::scene::Object::handle));
+        self.places.clear();
+        self.restless.retain(|handle| scene.exists(*handle));
     }
 
     /// Brings places among siblings up to date; siblings that got another one are concerned, too. After one is gone the others keep theirs,

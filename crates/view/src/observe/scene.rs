@@ -20,6 +20,21 @@ pub(crate) struct Source<'a> {
     pub is_read_only: bool,
     /// What is shown is being recorded or viewed live.
     pub mode: &'static str,
+    /// Of a capture that is played.
+    pub played: Option<Played>,
+}
+
+/// The moment of a capture that is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Played {
+    /// Its place on the timeline.
+    pub frame: usize,
+    /// Whether time goes on.
+    pub is_playing: bool,
+    /// Beside the wall clock; 0 for as fast as possible.
+    pub speed: f64,
+    /// Whether pages may go on from here.
+    pub goes_on: bool,
 }
 
 impl<'a> Source<'a> {
@@ -29,6 +44,7 @@ impl<'a> Source<'a> {
             now: sim.situation(scene),
             is_read_only: false,
             mode: "live",
+            played: None,
         }
     }
 
@@ -71,7 +87,22 @@ impl<'a> Source<'a> {
         if let Some(hash) = self.now.state_hash {
             scene["hash"] = format!("{hash:016x}").into();
         }
+        if let Some(played) = &self.played {
+            played.describe(&mut scene);
+        }
         scene.to_string()
+    }
+}
+
+impl Played {
+    fn describe(&self, scene: &mut Value) {
+        scene["mode"] = "capture".into();
+        scene["readOnly"] = true.into();
+        scene["frame"] = self.frame.into();
+        scene["playing"] = self.is_playing.into();
+        scene["realTime"] = (self.speed > 0.0).into();
+        scene["speed"] = self.speed.into();
+        scene["goesOn"] = self.goes_on.into();
     }
 }
 

@@ -31,6 +31,13 @@ pub(crate) struct WindowObserver {
 }
 
 impl WindowObserver {
+    /// All there are now.
+    pub(crate) fn observe_all(&mut self, sim: &Simulator) -> Option<ObservedWindows> {
+        // What is ahead gets everything.
+        self.seen = u64::MAX;
+        self.observe(sim)
+    }
+
     /// None if nothing changed.
     pub(crate) fn observe(&mut self, sim: &Simulator) -> Option<ObservedWindows> {
         let changes = sim.ui_changes(self.seen);

@@ -66,6 +66,34 @@ export class LiveSource {
     return new Promise((resolve, reject) => this.pending.set(id, { resolve, reject }));
   }
 
+  /** What the timeline of a capture shows, in frames; null for a simulation that is no capture. */
+  get track() {
+    const { timeline, scene } = this.store;
+    if (!timeline || scene.mode !== 'capture') return null;
+    const { frames, end, complete, marks } = timeline;
+    const at = scene.frame ?? 0;
+    const ending = complete ? `${end.toFixed(1)} s` : `${end.toFixed(1)} s…`;
+    return { start: 0, end: Math.max(frames - 1, at), at, step: 1, name: 'Moment of the capture', ending, marks: this._placed(marks), seek: (frame) => this._seek(frame) };
+  }
+
+  /** Marks with their places: the same list until others come. */
+  _placed(marks) {
+    if (this.marks !== marks) (this.marks = marks), (this.places = marks.map((mark) => ({ ...mark, at: mark.frame })));
+    return this.places;
+  }
+
+  /** Goes to a frame; while the answer is awaited only the last one counts. */
+  _seek(frame) {
+    this.wanted = frame;
+    if (this.seeking) return;
+    this.seeking = true;
+    const answered = () => {
+      this.seeking = false;
+      if (this.wanted !== frame) this._seek(this.wanted);
+    };
+    this._send('seek', { frame }).then(answered, answered);
+  }
+
   /** A mesh, texture, voxels or points. @param {string} hash @returns {Promise<ArrayBuffer>} */
   async blob(hash) {
     const reply = await fetch(`blob/${hash}`);

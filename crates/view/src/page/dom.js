@@ -37,6 +37,7 @@ const ICONS = {
   pause: 'M4 3h3v10H4zM9 3h3v10H9z',
   stop: 'M3.5 3.5h9v9h-9z',
   step: 'M3 3v10l7-5zM11 3h2v10h-2z',
+  jump: 'M3 3v10l5-5zM8 3v10l5-5z',
   tree: 'M2 3h5M5 8h5M5 13h5M3.5 3v10H5M3.5 8H5',
   console: 'M2 3h12v10H2zM4.5 6l2 2-2 2M8 10h3',
   fit: 'M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4M6 6h4v4H6z',
@@ -60,7 +61,7 @@ const ICONS = {
   points: 'M4 4v.01M8 3v.01M12 5v.01M5 8v.01M10 8v.01M4 12v.01M8 12v.01M12 11v.01',
   windows: 'M2 3h9v7H2zM5 10v3h9V6h-3M2 5h9',
 };
-const FILLED = new Set(['play', 'pause', 'stop', 'step']);
+const FILLED = new Set(['play', 'pause', 'stop', 'step', 'jump']);
 
 /** @param {string} name */
 export function icon(name) {

@@ -94,6 +94,18 @@ export class ReplaySource {
     store.dirty.add('properties');
   }
 
+  /** What a timeline shows, in seconds. */
+  get track() {
+    const { start_time: start, end_time: end, time } = this;
+    return { start, end, at: time, step: 'any', name: 'Time in the recording', ending: `${end.toFixed(1)} s`, marks: this.marks, seek: (to) => this.seek(to) };
+  }
+
+  /** Marks with their places. */
+  get marks() {
+    this.placed ??= (this.index.marks ?? []).map((mark) => ({ ...mark, at: mark.time }));
+    return this.placed;
+  }
+
   /** Goes on by the time of a picture, in seconds of the wall clock. */
   advance(seconds) {
     if (!this.playing) return;

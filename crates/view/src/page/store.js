@@ -23,6 +23,7 @@ export class Store {
     this.connection = { state: 'connecting', reason: '' };
     this.busy = null; // a sentence about a script that does not end
     this.scene = {};
+    this.timeline = null; // of a capture
     this.log = [];
     this.loggedLines = 0; // ever, also those that were dropped
     this._clear();
@@ -52,7 +53,7 @@ export class Store {
     this.changedDrawings = new Set();
   }
 
-  /** Calls a function after changes of a topic: scene, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, connection. */
+  /** Calls a function after changes of a topic: scene, timeline, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, connection. */
   on(topic, listener) {
     if (!this.listeners.has(topic)) this.listeners.set(topic, new Set());
     this.listeners.get(topic).add(listener);
@@ -63,7 +64,7 @@ export class Store {
     if (!this.dirty.size) return;
     const { dirty, changed, moved, changedDrawings } = this;
     this._marks();
-    for (const topic of ['connection', 'scene', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties']) {
+    for (const topic of ['connection', 'scene', 'timeline', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties']) {
       if (!dirty.has(topic)) continue;
       const detail = { objects: changed, poses: moved, drawings: changedDrawings }[topic];
       this.listeners.get(topic)?.forEach((listener) => listener(detail));
@@ -100,10 +101,8 @@ export class Store {
     const removedDrawings = [...this.drawings.keys()].filter((id) => !drawn.has(id));
     const shown = new Set((message.windows ?? []).map((window) => window.id));
     const removedWindows = [...this.windows.keys()].filter((handle) => !shown.has(handle));
-    this.log = [];
-    this.loggedLines = 0;
-    this.dirty.add('log');
-    this._update({ selection: [], dialogs: [], banners: [], views: [], question: null, ...message, removed, removedDrawings, removedWindows });
+    this._forgetLines();
+    this._update({ timeline: null, selection: [], dialogs: [], banners: [], views: [], question: null, ...message, removed, removedDrawings, removedWindows });
   }
 
   _update(message) {
@@ -113,8 +112,9 @@ export class Store {
     message.removedDrawings?.forEach((id) => this._drawing(id, null));
     message.drawings?.forEach((drawing) => this._drawing(drawing.id, drawing));
     this._take(message, 'selection');
+    if (message.logBegins) this._forgetLines();
     if (message.log?.length) this._lines(message.log);
-    for (const name of ['dialogs', 'banners', 'views', 'question']) this._take(message, name);
+    for (const name of ['timeline', 'dialogs', 'banners', 'views', 'question']) this._take(message, name);
     message.removedWindows?.forEach((id) => this.windows.delete(id));
     message.windows?.forEach((window) => this.windows.set(window.id, window));
     if (message.windows?.length || message.removedWindows?.length) this.dirty.add('windows');
@@ -147,6 +147,12 @@ export class Store {
     else this.drawings.delete(id);
     this.changedDrawings.add(id);
     this.dirty.add('drawings');
+  }
+
+  _forgetLines() {
+    this.log = [];
+    this.loggedLines = 0;
+    this.dirty.add('log');
   }
 
   _lines(lines) {

@@ -28,7 +28,12 @@ pub(crate) fn perform(
         Action::Play => sim.play(),
         Action::Pause => sim.pause(),
         Action::Stop => sim.stop_in_place_of_pause(),
-        Action::Step(count) => sim.step_and_pause(*count),
+        Action::Step(count) => {
+            let back = |_| "only a capture goes back".to_owned();
+            sim.step_and_pause(u64::try_from(*count).map_err(back)?);
+        }
+        Action::Seek(_) => return Err("only a capture goes to another moment".into()),
+        Action::Live => return Err("the simulation is no capture: it goes on".into()),
         Action::Speed(factor) => sim.set_pace(*factor),
         Action::Select(handles) => {
             let handles: Vec<Handle> = handles

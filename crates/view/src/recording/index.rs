@@ -58,7 +58,7 @@ impl MarkKind {
         Self::Failure,
     ];
 
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Error => "error",
             Self::Signal => "signal",

@@ -26,4 +26,5 @@ pub use reader::Recording;
 pub use recorder::Recorded;
 use recorder::Recorder;
 pub use run::RunRecorder;
+pub(crate) use run::path;
 use writer::Writer;

@@ -112,10 +112,12 @@ fn source<'a>(present: &Present<'a>) -> Source<'a> {
         now: present.now,
         is_read_only: true,
         mode: RECORDING,
+        played: None,
     }
 }
 
-fn path(scene: &Scene, handle: Handle) -> String {
+/// The path of an object, or its handle.
+pub(crate) fn path(scene: &Scene, handle: Handle) -> String {
     scene
         .short_path(handle)
         .unwrap_or_else(|_| handle.raw().to_string())

@@ -32,6 +32,8 @@ pub(crate) struct Shared {
     requests: Mutex<VecDeque<Pending>>,
     arrived: Condvar,
     is_read_only: bool,
+    /// What is shown is a capture.
+    is_capture: AtomicBool,
     /// How many dialogs were shown.
     questions: AtomicU64,
     /// A dialog waits for its answer.
@@ -102,6 +104,17 @@ impl Shared {
 
     pub(crate) fn mirror(&self) -> MutexGuard<'_, Mirror> {
         lock(&self.mirror)
+    }
+
+    /// Says whether what is shown is a capture.
+    pub(crate) fn set_capture(&self, is_capture: bool) {
+        self.is_capture.store(is_capture, Ordering::Relaxed);
+    }
+
+    /// Whether pages may ask for it. All may go to another moment of a capture.
+    fn permits(&self, action: &Action) -> bool {
+        let is_free = self.is_capture.load(Ordering::Relaxed) && action.moves_in_time();
+        !self.is_read_only || is_free || !action.changes_something()
     }
 
     /// Whether any page is connected.

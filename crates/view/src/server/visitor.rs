@@ -42,7 +42,7 @@ impl Page {
 
     /// Carries out what concerns only this page; otherwise returns what is for the simulation.
     fn perform(&mut self, request: Request) -> Result<Option<Request>, String> {
-        if self.shared.is_read_only && request.action.changes_something() {
+        if !self.shared.permits(&request.action) {
             return Err("this page may only read".to_owned());
         }
         match &request.action {

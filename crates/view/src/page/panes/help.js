@@ -12,7 +12,10 @@ export function keysOf(page) {
   const keys = [
     key('Time', [' '], 'Space', 'start or pause', () => bar.toggle()),
     key('Time', ['shift+ '], 'Shift+Space', 'stop, or back to the start', () => page.ask('stop')),
-    key('Time', ['.'], '.', 'one step', () => page.ask('step', { count: 1 })),
+    key('Time', ['.'], '.', 'one step', () => bar.step(1)),
+    key('Time', [','], ',', 'one step back, in captures and recordings', () => bar.step(-1)),
+    key('Time', ['n'], 'N', 'next mark, there too', () => bar.jump(1)),
+    key('Time', ['p'], 'P', 'previous mark', () => bar.jump(-1)),
     key('View', ['f'], 'F', 'show the selected object, or everything', () => page.fit(page.store.selection)),
     key('View', ['Home'], 'Home', 'show everything', () => page.fit([])),
     key('View', ['1'], '1', 'from the front', view(Math.PI, 0)),
@@ -30,7 +33,7 @@ export function keysOf(page) {
     key('Panels', ['Escape'], 'Esc', 'select nothing, close what is open', () => page.escape()),
     key('Panels', ['?'], '?', 'these keys', () => page.help.toggle()),
   ];
-  if (!page.source.live) keys.push(key('Time', ['n'], 'N', 'next mark', () => bar.jump(1)), key('Time', ['p'], 'P', 'previous mark', () => bar.jump(-1)));
+  if (page.source.live) keys.push(key('Time', ['g'], 'G', 'go on live from the moment of a capture', () => bar.goOn()));
   if (renderer) return keys;
   return keys.filter(({ group }) => group !== 'View');
 }

@@ -1,25 +1,28 @@
 //! The simulation's side of the viewer: between iterations it answers requests, and shows what changed.
 
+mod capture;
+mod frames;
+
 use std::io;
 use std::net::{SocketAddr, TcpListener};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::busy::BusySign;
-use super::images::Images;
-use super::mirror::Demanded;
-use super::observe::{Observer, Source, WindowObserver};
-use super::perform::{perform, rows};
-use super::question::ask;
-use super::recording::Recording;
-use super::request::Action;
-use super::server::{RecordedSite, Shared, ViewSite};
+use crate::busy::BusySign;
+use crate::images::Images;
+use crate::mirror::Demanded;
+use crate::observe::{Observation, ObservedWindows, Observer, Source, WindowObserver};
+use crate::perform::{perform, rows};
+use crate::question::ask;
+use crate::recording::Recording;
+use crate::request::Action;
+use crate::server::{RecordedSite, Shared, ViewSite};
 use ::io::SiteServer;
 use simulator::Simulator;
 
 use script::log::RecentLine;
-use script::wall_clock;
+use script::{SimulationState, wall_clock};
 
 /// Time between two observations: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_600);
@@ -27,6 +30,8 @@ const FRAME: Duration = Duration::from_micros(16_600);
 const IMAGE: Duration = Duration::from_millis(100);
 /// The same for values of properties, at most 5 a second.
 const VALUES: Duration = Duration::from_millis(200);
+
+pub use capture::CaptureViewer;
 
 /// What a request of a page is called in a capture.
 const REQUEST: &str = "a request of a page";
@@ -50,6 +55,8 @@ pub struct Viewer {
     server: SiteServer,
     token: String,
     is_read_only: bool,
+    /// The simulation waits for a page to let it go on.
+    is_held: bool,
     /// Lines of the log that are not shown yet.
     lines: Vec<RecentLine>,
     windows: WindowObserver,
@@ -79,21 +86,24 @@ impl Viewer {
     /// # Errors
     /// When the server cannot start.
     pub fn start(sim: &Simulator, listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
+        let viewer = Self::open(listener, is_read_only)?;
+        viewer.attach(sim);
+        Ok(viewer)
+    }
+
+    /// The same for a simulator that is not attached yet.
+    pub(crate) fn open(listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
         let token = ViewSite::new_token()?;
         let shared = Arc::new(Shared::new(is_read_only));
         let site = ViewSite::new(Arc::clone(&shared), token.clone());
         let server = SiteServer::start(listener, |_| site)?;
-        sim.keep_recent_lines();
-        let (asks, waker) = (Arc::clone(&shared), server.waker());
-        sim.set_person(Rc::new(move |question, is_ending| {
-            ask(&asks, &waker, question, is_ending)
-        }));
         Ok(Self {
             observer: Observer::default(),
             shared,
             server,
             token,
             is_read_only,
+            is_held: false,
             lines: Vec::new(),
             windows: WindowObserver::default(),
             frame: Timer::default(),
@@ -101,6 +111,25 @@ impl Viewer {
             values: Timer::default(),
             images_shown: Images::default(),
         })
+    }
+
+    /// Pages answer the dialogs of the simulator and get its lines from now on.
+    pub(crate) fn attach(&self, sim: &Simulator) {
+        sim.keep_recent_lines();
+        let (asks, waker) = (Arc::clone(&self.shared), self.server.waker());
+        sim.set_person(Rc::new(move |question, is_ending| {
+            ask(&asks, &waker, question, is_ending)
+        }));
+    }
+
+    /// The simulation stands still until a page lets it go on.
+    pub(crate) fn hold(&mut self) {
+        self.is_held = true;
+    }
+
+    /// Whether it stands still that way: there are no iterations meanwhile.
+    pub fn is_held(&self) -> bool {
+        self.is_held
     }
 
     /// Where the page is.
@@ -126,6 +155,7 @@ impl Viewer {
             answered = true;
             sim.tape().add(REQUEST, &pending.action);
             let result = perform(sim, &pending.action, &mut self.lines);
+            self.is_held &= result.is_err() || !lets_go_on(&pending.action);
             pending.answer(result);
             // Code may run for a long time: its effects are shown before the next request.
             if matches!(pending.action, Action::Run(_)) {
@@ -143,7 +173,7 @@ impl Viewer {
     /// Shows what changed since the last time; nothing while there are no pages.
     fn show(&mut self, sim: &Simulator) {
         self.lines.extend(sim.take_recent_lines());
-        let surplus = self.lines.len().saturating_sub(super::mirror::LOG_LINES);
+        let surplus = self.lines.len().saturating_sub(crate::mirror::LOG_LINES);
         self.lines.drain(..surplus);
         if !self.shared.has_pages() {
             self.observer.pause();
@@ -152,14 +182,22 @@ impl Viewer {
         let lines = std::mem::take(&mut self.lines);
         let seen = {
             let scene = sim.scene();
-            let source = Source {
+            let mut source = Source {
                 is_read_only: self.is_read_only,
                 ..Source::of(sim, &scene)
             };
+            if self.is_held && source.now.state != SimulationState::Stopped {
+                source.now.state = SimulationState::Paused;
+            }
             self.observer.observe(&source, &lines)
         };
         let windows = self.windows.observe(sim);
         let found = self.find_demanded(sim);
+        self.publish(seen, windows, found);
+    }
+
+    /// Pages get what was found.
+    fn publish(&self, seen: Observation, windows: Option<ObservedWindows>, found: Demanded) {
         let changed = {
             let mut mirror = self.shared.mirror();
             let mut changed = mirror.apply(seen);
@@ -205,6 +243,11 @@ impl Viewer {
         }
         found
     }
+}
+
+/// Whether the simulation goes on after such a request.
+fn lets_go_on(action: &Action) -> bool {
+    matches!(action, Action::Play | Action::Stop | Action::Step(_))
 }
 
 impl Drop for Viewer {

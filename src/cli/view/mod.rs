@@ -1,5 +1,7 @@
 //! `swanilda view`: a scene in a browser; and the options about that of `run` and `serve`.
 
+mod played;
+
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,7 +15,7 @@ use super::live::Live;
 use super::output::Output;
 use super::progress::Progress;
 use super::remote::Remote;
-use super::replay::CommandLoop;
+use super::replay::{CommandLoop, is_capture};
 use super::run::Kind;
 use super::setup::Setup;
 use super::watchdog::Watchdog;
@@ -24,10 +26,10 @@ use view::{RecordedViewer, Viewer};
 /// Interval between checks for ctrl-c while a recording is shown.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Show a scene or a recording in a browser
+/// Show a scene, a capture or a recording in a browser
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Scene: a Lua file, a CoppeliaSim file, a folder made by unpack, or a recording (.swr) [default: the default scene]
+    /// Scene: a Lua file, a CoppeliaSim file, a folder made by unpack, a capture (.swc), or a recording (.swr) [default: the default scene]
     scene: Option<PathBuf>,
     /// Script type to load the file as
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
@@ -128,6 +130,9 @@ pub(super) fn view(args: &Args) -> Outcome {
     if let Some(recording) = scene.filter(|scene| is_recording(scene)) {
         return view_recording(args, recording);
     }
+    if let Some(file) = scene.filter(|scene| is_capture(scene)) {
+        return played::view(args, file);
+    }
     let progress = Progress::new(RunLimits::default(), true);
     let tape = args.capture.tape()?;
     let mut launch = Launch::new(
@@ -173,15 +178,9 @@ fn is_recording(path: &Path) -> bool {
 fn view_recording(args: &Args, path: &Path) -> Outcome {
     let recording = super::export::open(path)?;
     let interrupt = Interrupt::of_scripts_here();
-    let output = args
-        .setup
-        .output(&Progress::new(RunLimits::default(), true), &interrupt);
-    let failed =
-        |error: std::io::Error| format!("the viewer cannot start at port {}: {error}", args.port);
-    let listener = TcpListener::bind((args.remote.address(), args.port)).map_err(failed)?;
-    let viewer = RecordedViewer::start(recording, listener).map_err(failed)?;
-    output.viewing(&viewer.url());
-    args.open_browser(&viewer.url());
+    let listener = args.listen()?;
+    let viewer = RecordedViewer::start(recording, listener).map_err(|error| args.failed(&error))?;
+    args.announce(&viewer.url(), &interrupt);
     while !interrupt.is_requested() {
         std::thread::sleep(POLL_INTERVAL);
     }
@@ -219,6 +218,22 @@ impl Args {
             sim.start();
         }
         Ok((sim, CommandLoop::Live))
+    }
+
+    fn listen(&self) -> Result<TcpListener, String> {
+        let bound = TcpListener::bind((self.remote.address(), self.port));
+        bound.map_err(|error| self.failed(&error))
+    }
+
+    fn failed(&self, error: &std::io::Error) -> String {
+        format!("the viewer cannot start at port {}: {error}", self.port)
+    }
+
+    /// Prints the address, and opens the page.
+    fn announce(&self, url: &str, interrupt: &Interrupt) {
+        let progress = Progress::new(RunLimits::default(), true);
+        self.setup.output(&progress, interrupt).viewing(url);
+        self.open_browser(url);
     }
 
     fn open_browser(&self, url: &str) {
