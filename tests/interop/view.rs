@@ -14,6 +14,11 @@ fn the_page_in_a_browser() {
 }
 
 #[test]
+fn a_capture_in_a_browser() {
+    check_in_browser("view_capture.py");
+}
+
+#[test]
 fn windows_of_scripts_in_a_browser() {
     check_in_browser_with("view_windows.py", &[&old_scene()]);
 }

@@ -145,7 +145,8 @@ impl Clock {
         self.state.set(state);
     }
 
-    pub(crate) fn set_quit_requested(&self, on: bool) {
+    /// Asks for the end of the program, or withdraws that.
+    pub fn set_quit_requested(&self, on: bool) {
         self.quit_requested.set(on);
     }
 

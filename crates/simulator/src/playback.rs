@@ -174,9 +174,11 @@ impl<L: Loop> Playback<L> {
         Ok(())
     }
 
-    /// The simulator goes on from the present moment as one that was never captured: what comes from outside comes from there again.
+    /// The simulator goes on from the present moment as one that was never captured: what comes from outside comes from there again. A
+    /// request to end the program is withdrawn.
     pub fn go_live(self) -> Simulator {
         self.sim.tape().go_live();
+        self.sim.inside().clock.set_quit_requested(false);
         self.sim
     }
 

@@ -79,6 +79,18 @@ impl Simulator {
         })
     }
 
+    /// Computes the poses of all objects. What is read of the [scene](Self::scene) until something moves needs no room in the memory of
+    /// the simulator any more, which is to be taken back.
+    pub fn refresh_poses(&self) {
+        self.copied(|sim| {
+            let scene = sim.scene.borrow();
+            for object in scene.objects() {
+                // It is kept beside the object.
+                let _ = scene.world_pose(object.handle());
+            }
+        });
+    }
+
     /// Sets the function that shows dialogs of scripts to users and returns their answers.
     pub fn set_person(&self, ask: Rc<Ask>) {
         self.inside().set_person(ask);

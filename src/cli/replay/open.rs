@@ -48,14 +48,17 @@ pub(in crate::cli) fn open(
     let (sim, command_loop) = match command {
         Command::Run(mut run) => {
             run.setup.for_replay(threads);
+            run.setup.json = false;
             run.played(&tape, interrupt, build)?
         }
         Command::Serve(mut serve) => {
             serve.setup.for_replay(threads);
+            serve.setup.json = false;
             serve.played(&tape, interrupt, build)?
         }
         Command::View(mut view) => {
             view.setup.for_replay(threads);
+            view.setup.json = false;
             view.played(&tape, interrupt, build)?
         }
         Command::Test(_) | Command::Batch(_) => {

@@ -77,7 +77,7 @@ impl<'a> Launch<'a> {
         let progress = Progress::new(RunLimits::default(), true);
         let around = Around {
             watchdog: Watchdog::default(),
-            output: setup.output(&progress, interrupt),
+            output: setup.output(&progress, interrupt).silenced(),
             interrupt: interrupt.clone(),
             plugin_note: None,
         };

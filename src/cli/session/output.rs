@@ -44,6 +44,8 @@ pub(in crate::cli) struct Output {
     interrupt: Interrupt,
     /// Standard output, where nothing but lines of ours may be.
     reserved: Option<&'static File>,
+    /// Writes nothing to standard output.
+    is_silent: bool,
 }
 
 /// A script error pauses the simulation, and a run that nobody resumes is then stopped. Of the four lines about that, people read one.
@@ -76,6 +78,15 @@ impl Output {
             error: Rc::default(),
             interrupt,
             reserved,
+            is_silent: false,
+        }
+    }
+
+    /// The same for a run that only repeats what another one has said.
+    pub(in crate::cli) fn silenced(self) -> Self {
+        Self {
+            is_silent: true,
+            ..self
         }
     }
 
@@ -273,6 +284,9 @@ impl Output {
 
     /// Writes a line to standard output. When nobody reads it any more, or it has no room, the program ends.
     fn write_line(&self, line: &[u8]) {
+        if self.is_silent {
+            return;
+        }
         let line = [line, b"\n"].concat();
         let written = match self.reserved {
             Some(mut out) => out.write_all(&line),

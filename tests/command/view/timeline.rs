@@ -1,10 +1,12 @@
 //! A capture in the viewer: its moments, forwards and back, and how it goes on from one of them.
 
+use std::io::Read;
 use std::process::Command;
 
+use flate2::read::GzDecoder;
 use serde_json::{Value, json};
 
-use super::page::Page;
+use super::page::{Page, get};
 use super::served::Served;
 
 /// A robot that is pushed by a property, prints, sends messages, touches something and fails.
@@ -99,13 +101,13 @@ impl Shown {
         self.lines.extend(
             list("log")
                 .iter()
-                .map(|line| line["text"].as_str().unwrap().to_owned()),
+                .map(|line| line["text"].as_str().expect("it has that form").to_owned()),
         );
         if text["type"] == "snapshot" {
             self.objects.clear();
         }
         for object in list("objects") {
-            let handle = object["handle"].as_i64().unwrap();
+            let handle = object["handle"].as_i64().expect("it has that form");
             if object["alias"] == "mover" {
                 self.mover = handle;
             }
@@ -123,7 +125,7 @@ impl Shown {
     }
 
     fn frame(&self) -> u64 {
-        self.scene["frame"].as_u64().unwrap()
+        self.scene["frame"].as_u64().expect("it has that form")
     }
 
     /// What there is at a frame: pose, count of objects, lines.
@@ -144,14 +146,14 @@ impl Shown {
             .expect("it is there");
         let row = rows
             .as_array()
-            .unwrap()
+            .expect("it has that form")
             .iter()
             .find(|row| row["name"] == name);
         row.expect("it has that property")["value"].clone()
     }
 
     fn last(&self) -> u64 {
-        self.timeline["frames"].as_u64().unwrap() - 1
+        self.timeline["frames"].as_u64().expect("it has that form") - 1
     }
 
     fn go_on(&mut self) {
@@ -352,6 +354,9 @@ fn without_a_change_it_goes_on_as_the_capture_did() {
             .is_some_and(|line| line == "Simulation paused.")
     });
     shown.lines.pop();
+    shown
+        .lines
+        .retain(|line| !line.starts_with("live from here"));
     assert_eq!(
         (shown.property("pose"), &shown.lines),
         (captured.0, &captured.2)
@@ -376,4 +381,50 @@ fn it_goes_on_with_a_changed_script() {
     let restart = format!("sim.initScript({script})");
     assert!(shown.ask(json!({"do": "run", "code": restart})).is_ok());
     shown.until(|shown| shown.lines.last().is_some_and(|line| line == "new"));
+}
+
+const TEST: &str = "
+local sim = require 'sim'
+local t = require 'swanilda.test'
+it('arrives', function()
+    print('stamp', sim.getSystemTime())
+    t.step(4)
+    assert.equal('there', 'elsewhere')
+end)";
+
+#[test]
+fn the_capture_of_a_failed_test_is_shown_as_a_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("race_test.lua"), TEST).expect("the test is written");
+    let run = Command::new(env!("CARGO_BIN_EXE_swanilda"))
+        .args(["test", "race_test.lua", "--capture-failures=."])
+        .current_dir(folder.path())
+        .output();
+    let printed = String::from_utf8(run.expect("it runs").stdout).unwrap();
+    let stamp = printed.split("stamp, ").nth(1).expect("it is printed");
+    let stamp = stamp.split_whitespace().next().unwrap().to_owned();
+    std::fs::remove_file(folder.path().join("race_test.lua")).expect("it is there");
+    let name = "race-test-1-0-arrives.swc";
+    let served = Served::start_file("view", folder, name, &["--no-open"]);
+    let index: Value = serde_json::from_slice(&get(&served, "recording", &[]).body).unwrap();
+    let marks = index["marks"].as_array().unwrap();
+    let failure = marks
+        .iter()
+        .find(|mark| mark["kind"] == "failure")
+        .expect("it is marked");
+    assert!(
+        failure["text"].as_str().unwrap().contains("elsewhere"),
+        "{failure}"
+    );
+    assert!(
+        (index["end"].as_f64().unwrap() - 0.2).abs() < 0.06,
+        "{index}"
+    );
+    let chunk = get(&served, "recording/0", &[]).body;
+    let mut text = Vec::new();
+    GzDecoder::new(&*chunk)
+        .read_to_end(&mut text)
+        .expect("it is compressed");
+    let text = String::from_utf8_lossy(&text).into_owned();
+    assert!(text.contains(&format!("stamp, {stamp}")), "the console");
 }

@@ -68,8 +68,10 @@ impl Link {
         if !matches!(peer, Peer::Embedded(_)) {
             self.tape.replace(tape.clone());
         }
-        let resource = Resource::new(|| "the variables of a script in Python".to_owned());
-        self.resource.replace(Some(resource));
+        // The variables of a captured one are in no process.
+        let resource = || Resource::new(|| "the variables of a script in Python".to_owned());
+        let is_captured = matches!(peer, Peer::Captured);
+        self.resource.replace((!is_captured).then(resource));
         self.peer.replace(Some(peer));
     }
 

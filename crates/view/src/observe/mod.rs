@@ -145,11 +145,7 @@ impl Observer {
         let is_another_scene =
             self.scene_uid.replace(source.now.scene_uid) != Some(source.now.scene_uid);
         if is_another_scene {
-            *self = Self {
-                scene_uid: self.scene_uid,
-                reread: self.reread.as_ref().map(|_| Reread::default()),
-                ..Self::default()
-            };
+            self.forget();
         }
         let failed = self.note_errors(lines);
         let mut concerned = self.read_journal(scene);
@@ -194,6 +190,20 @@ impl Observer {
                     .collect()
             }),
             log: lines.iter().map(log::describe).collect(),
+        }
+    }
+
+    /// Begins anew with another scene.
+    fn forget(&mut self) {
+        let errors = std::mem::take(&mut self.script_errors);
+        *self = Self {
+            scene_uid: self.scene_uid,
+            reread: self.reread.as_ref().map(|_| Reread::default()),
+            ..Self::default()
+        };
+        if self.reread.is_some() {
+            // They were set for this moment.
+            self.script_errors = errors;
         }
     }
 

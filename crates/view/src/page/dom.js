@@ -46,6 +46,7 @@ const ICONS = {
   camera: 'M2 5h8v7H2zM10 7.5l4-2v6l-4-2',
   options: 'M2 4h7M12 4h2M2 8h2M7 8h7M2 12h6M11 12h3M9 2.7v2.6M4.5 6.7v2.6M8.5 10.7v2.6',
   script: 'M4 2h6l3 3v9H4zM6 7h5M6 9.5h5M6 12h3',
+  edit: 'M3 13l1-3.5L11 2.5l2.5 2.5L6.5 12zM9.5 4L12 6.5',
   close: 'M4 4l8 8M12 4l-8 8',
   fold: 'M4 6l4 4 4-4',
   copy: 'M5.5 5.5h7v8h-7zM3.5 10.5v-8h7',

@@ -16,6 +16,7 @@ use crate::observe::{Observer, Played, Source, WindowObserver, describe_line};
 use crate::perform::perform;
 use crate::request::Action;
 use ::capture::Verdict;
+use script::log::{RecentLine, verbosity};
 use script::wall_clock;
 use simulator::{Loop, Playback, Simulator};
 
@@ -33,6 +34,10 @@ const STEP: Duration = Duration::from_secs(2);
 const LATE: Duration = Duration::from_millis(250);
 /// Lines of the console that pages have.
 const LINES: usize = 2000;
+
+/// What scripts do not have when a capture goes on.
+const NOTE: &str = "live from here. What the captured run had open is not there: connections and servers, programs and Python scripts, devices. \
+                    Scripts that use it get errors until they open it again.";
 
 /// Shows a capture to pages.
 pub struct CaptureViewer<L> {
@@ -156,6 +161,7 @@ impl<L: Loop> CaptureViewer<L> {
         viewer.attach(&sim);
         // Pages have them.
         drop(sim.take_recent_lines());
+        viewer.lines.push(note_of_life(sim.time()));
         sim.set_pace(speed);
         viewer.hold();
         viewer.shared.set_capture(false);
@@ -338,6 +344,7 @@ impl<L: Loop> CaptureViewer<L> {
             .filter(|line| line.is_script_error());
         self.viewer.observer.set_errors(errors);
         let sim = self.playback.sim();
+        sim.refresh_poses();
         let seen = {
             let scene = sim.scene();
             let source = Source {
@@ -373,6 +380,18 @@ impl<L: Loop> CaptureViewer<L> {
             .shared
             .mirror()
             .show_lines(lines, Some(from) == shown);
+    }
+}
+
+/// Why scripts may fail from now on.
+fn note_of_life(time: f64) -> RecentLine {
+    RecentLine {
+        time,
+        level: Some(verbosity::WARNINGS),
+        origin: "viewer".to_owned(),
+        script: None,
+        text: NOTE.to_owned(),
+        located: None,
     }
 }
 

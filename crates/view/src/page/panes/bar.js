@@ -45,8 +45,12 @@ export class Bar {
     if (count > 0 || this.source.track) this.page.ask('step', { count });
   }
 
-  goOn() {
-    if (this.isCapture && this.store.scene.goesOn) this.page.ask('live');
+  /** A capture goes on live. What the page has selected stays so. */
+  async goOn() {
+    if (!this.isCapture || !this.store.scene.goesOn) return;
+    const { selection } = this.store;
+    await this.page.ask('live');
+    this.source.request('select', { handles: selection }).catch(() => {}); // gone again
   }
 
   jump(by) {

@@ -37,15 +37,16 @@ export class InspectorPane {
     this.store.on('objects', (changed) => changed.has(this.handle) && this._head());
     this.store.on('properties', () => this._values());
     this.store.on('image', () => this._image());
-    this.store.on('connection', () => this._selected());
+    for (const topic of ['connection', 'scene']) this.store.on(topic, () => this._selected());
   }
 
   /** The last selected object, or the scene. */
   async _selected() {
     if (!['open'].includes(this.store.connection.state)) return;
     const handle = this.store.selection.at(-1) ?? -12;
-    if (handle === this.handle && this.rows.size) return;
-    this.handle = handle;
+    const writable = this.page.canWrite; // a capture goes on live: from then on
+    if (handle === this.handle && this.rows.size && writable === this.writable) return;
+    Object.assign(this, { handle, writable, head: null });
     this._head();
     this._watch();
     const rows = await this.page.source.request('inspect', { handle }).catch((error) => this._fail(error));
