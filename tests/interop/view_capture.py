@@ -71,7 +71,7 @@ def goes_on(browser):
     same("no timeline", browser.evaluate(f"[swanilda.bar.timeline.slider.checkVisibility(), {GO_ON}.checkVisibility(), document.querySelector('#bar .state').textContent]"), [False, False, "paused"])
     same("the same moment", browser.evaluate(f"swanilda.store.poses.get({BALL}.handle)[0]"), x)
     same("its lines", browser.evaluate(f"{LINES}.filter(line => line.includes('step at')).length"), 11)
-    browser.shows("document.querySelector('[data-name=\"customData.speed\"] input')", "the properties to write")
+    browser.shows("document.querySelector('[data-name=\"customData.speed\"] input') != null", "the properties to write")
     browser.evaluate("""(() => { const input = document.querySelector('[data-name="customData.speed"] input'); input.value = -1; input.dispatchEvent(new Event('change')) })()""")
     browser.evaluate(BUTTON.format("One step (.)") + ".click()")
     browser.shows(f"swanilda.store.poses.get({BALL}.handle)[0] < -0.4", "the other way")
@@ -79,7 +79,7 @@ def goes_on(browser):
 
 def the_script_is_changed(browser):
     browser.evaluate("swanilda.openScriptOf([...swanilda.store.objects.values()].find(object => object.objectType === 'script').handle)")
-    browser.shows("document.querySelector('#script .code-line')", "the script")
+    browser.shows("document.querySelector('#script .code-line') != null", "the script")
     browser.evaluate("document.querySelector('#script [aria-label=\"Change the text\"]').click()")
     same("its text", browser.evaluate("swanilda.script.text.value.includes('too far')"), True)
     browser.evaluate("swanilda.script.text.value = \"print('another')\\nfunction sysCall_init() end\"")
