@@ -221,3 +221,27 @@ fn windows_of_scripts_come_change_and_go() {
         json!({"type": "update", "removedWindows": ["1:UI"]})
     );
 }
+
+#[test]
+fn lines_of_another_moment_take_the_place_of_those_before() {
+    let mut mirror = mirror();
+    mirror.show_lines(
+        vec![r#"{"text":"a"}"#.into(), r#"{"text":"b"}"#.into()],
+        false,
+    );
+    let seen = mirror.revision();
+    mirror.show_lines(vec![r#"{"text":"c"}"#.into()], true);
+    let more = json!({"type": "update", "log": [{"text": "c"}]});
+    assert_eq!(read(&mirror, seen).0, more);
+    mirror.show_lines(vec![r#"{"text":"a"}"#.into()], false);
+    let anew = json!({"type": "update", "logBegins": true, "log": [{"text": "a"}]});
+    assert_eq!(read(&mirror, seen).0, anew);
+    let seen = mirror.revision();
+    mirror.show_lines(Vec::new(), false);
+    assert_eq!(
+        read(&mirror, seen).0,
+        json!({"type": "update", "logBegins": true})
+    );
+    let all = read(&mirror, 0).0;
+    assert_eq!((&all["log"], &all["logBegins"]), (&json!([]), &Value::Null));
+}

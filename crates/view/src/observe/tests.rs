@@ -50,6 +50,7 @@ impl Stage {
             },
             is_read_only: false,
             mode: "live",
+            played: None,
         };
         self.observer.observe(&source, lines)
     }
@@ -301,4 +302,42 @@ fn shapes_share_their_meshes() {
         blob.bytes.len(),
         20 + 12 * vertices + 48 * triangles + coordinates + 8 * edges
     );
+}
+
+#[test]
+fn an_observer_that_rereads_describes_what_changed_and_follows_nothing() {
+    let mut stage = Stage::new();
+    stage.observer = Observer::that_rereads();
+    let (first, second) = (stage.dummy("first"), stage.dummy("second"));
+    assert_eq!(
+        handles(&stage.observe().objects),
+        [first.raw(), second.raw()]
+    );
+    // Nothing changed: no text, but all poses, which may be those of an earlier moment.
+    let seen = stage.observe();
+    assert!(!seen.is_complete && seen.objects.is_empty());
+    assert_eq!(seen.poses.len(), 2);
+    stage.scene.remove(&[first]).unwrap();
+    let seen = stage.observe();
+    assert!(seen.is_complete);
+    assert_eq!(handles(&seen.objects), [second.raw()]);
+    assert!(!stage.scene.journal().is_followed(::scene::Topic::Added));
+    // Errors are those of the moment.
+    let line = error_of(second, "3: no");
+    stage.observer.set_errors(std::iter::once(&line));
+    assert_eq!(handles(&stage.observe().objects), [second.raw()]);
+    assert!(stage.observe().objects.is_empty());
+    stage.observer.set_errors(std::iter::empty());
+    assert_eq!(handles(&stage.observe().objects), [second.raw()]);
+}
+
+fn error_of(script: Handle, text: &str) -> RecentLine {
+    RecentLine {
+        time: 0.0,
+        level: Some(script::log::verbosity::SCRIPT_ERRORS),
+        origin: "a script".into(),
+        script: Some(script.raw()),
+        text: text.into(),
+        located: None,
+    }
 }
