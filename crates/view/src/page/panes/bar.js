@@ -9,7 +9,7 @@ export class Bar {
   constructor(bar, page) {
     Object.assign(this, { page, store: page.store, source: page.source });
     this.play = iconButton('play', 'Start (Space)', () => this.toggle());
-    this.back = iconButton('step', 'One step back (,)', () => this.step(-1), { class: 'icon-button mirrored' });
+    this.back = iconButton('step', 'Step back (,)', () => this.step(-1), { class: 'icon-button mirrored' });
     this.ahead = iconButton('step', 'One step (.)', () => this.step(1));
     this.stop = iconButton('stop', 'Stop (Shift+Space)', () => this.page.ask('stop'));
     const speeds = SPEEDS.map((factor) => el('option', { value: factor }, `${factor}×`));
