@@ -58,9 +58,8 @@ pub struct Playback<L> {
 impl<L: Loop> Playback<L> {
     /// The beginning of a capture. The tape of the simulator replays it; `run` is the loop of its command.
     ///
-    /// # Errors
-    /// When there can be no snapshots.
-    pub fn new(sim: Simulator, run: L) -> Result<Self, Error> {
+    /// Where something is open that no snapshot reaches, it goes forward only.
+    pub fn new(sim: Simulator, run: L) -> Self {
         let moment = Moment::of(&sim);
         let mut playback = Self {
             sim,
@@ -72,8 +71,9 @@ impl<L: Loop> Playback<L> {
             work: Duration::ZERO,
             end: None,
         };
-        playback.add_checkpoint()?;
-        Ok(playback)
+        // Without it there is no way back, which is said when somebody wants to go there.
+        let _ = playback.add_checkpoint();
+        playback
     }
 
     /// The simulator at the present moment.
@@ -163,8 +163,12 @@ impl<L: Loop> Playback<L> {
     /// # Errors
     /// When something is open that no snapshot reaches, or there is no such checkpoint.
     pub fn go_to_checkpoint(&mut self, turn: usize) -> Result<(), Error> {
-        let none = || Error::NoSnapshot(format!("there is no checkpoint after iteration {turn}."));
-        let checkpoint = self.checkpoints.get(&turn).ok_or_else(none)?;
+        let Some(checkpoint) = self.checkpoints.get(&turn) else {
+            // What is open now was probably open then.
+            self.sim.snapshot()?;
+            let none = format!("there is no checkpoint after iteration {turn}.");
+            return Err(Error::NoSnapshot(none));
+        };
         self.sim.restore(&checkpoint.snapshot)?;
         let moved = self.sim.tape().go_to(&checkpoint.mark);
         moved.map_err(|error| Error::Unreadable(error.to_string()))?;

@@ -71,6 +71,5 @@ pub(in crate::cli) fn open(
             ));
         }
     };
-    let playback = Playback::new(sim, command_loop).map_err(|error| error.to_string())?;
-    Ok((playback, header))
+    Ok((Playback::new(sim, command_loop), header))
 }

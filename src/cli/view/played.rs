@@ -22,10 +22,17 @@ pub(super) fn view(args: &Args, path: &Path) -> Outcome {
         return view_recording(args, &recording);
     }
     let interrupt = Interrupt::of_scripts_here();
-    let (playback, header) = open(path, None, &interrupt, simulator::Builder::observed)?;
+    let (file, asked) = (path.to_owned(), interrupt.clone());
+    let again = move || open(&file, None, &asked, simulator::Builder::observed);
+    let (playback, header) = again()?;
     warn_of_version(&header, args.setup.quiet);
     let is_read_only = args.view == Mode::ReadOnly;
-    let started = CaptureViewer::start(playback, args.listen()?, is_read_only);
+    let started = CaptureViewer::start(
+        playback,
+        move || again().map(|(playback, _)| playback),
+        args.listen()?,
+        is_read_only,
+    );
     let mut viewer = started.map_err(|error| args.failed(&error))?;
     viewer.set_speed(args.speed);
     let watchdog = interrupt.watchdog(!args.setup.json);
@@ -36,7 +43,7 @@ pub(super) fn view(args: &Args, path: &Path) -> Outcome {
 
 fn play(mut viewer: CaptureViewer<CommandLoop>, interrupt: &Interrupt) -> Result<ExitCode, String> {
     while !interrupt.is_requested() {
-        if viewer.attend().map_err(|error| error.to_string())? {
+        if viewer.attend()? {
             let (mut sim, viewer) = viewer.go_live();
             return Ok(Live::new(Some(viewer)).run(&mut sim, interrupt));
         }

@@ -40,6 +40,7 @@ fn captured(script: &str, options: &[&str]) -> Served {
     let run = Command::new(env!("CARGO_BIN_EXE_swanilda"))
         .args(["run", "--time", "2", "--quiet"])
         .arg(&scene)
+        .current_dir(folder.path())
         .arg("--capture")
         .arg(folder.path().join("run.swc"))
         .env("SPEED_OF", "the capture")
@@ -205,6 +206,21 @@ fn any_moment_of_a_capture_comes_back_as_it_was() {
         );
     }
     assert_eq!(shown.timeline["outcome"], "The capture ends here.");
+}
+
+#[test]
+fn a_run_that_has_a_file_open_goes_back_as_well() {
+    let script = SCENE.replace(
+        "    print('ready')",
+        "    file = io.open('log.txt', 'w')\n    print('ready')",
+    );
+    let script = script.replace("    local x =", "    file:write('x')\n    local x =");
+    let served = captured(&script, &[]);
+    let mut shown = Shown::of(&served);
+    let moments: Vec<_> = [0, 5, 20].map(|frame| shown.at(frame)).into();
+    for (frame, moment) in [(20, 2), (5, 1), (0, 0), (20, 2)] {
+        assert_eq!(shown.at(frame), moments[moment], "frame {frame}");
+    }
 }
 
 #[test]

@@ -39,10 +39,18 @@ const LINES: usize = 2000;
 const NOTE: &str = "live from here. What the captured run had open is not there: connections and servers, programs and Python scripts, devices. \
                     Scripts that use it get errors until they open it again.";
 
+/// Of the playback.
+const THERE: &str = "nothing is being opened";
+
+/// Opens the capture, at its beginning; why it cannot be, in words.
+type Open<L> = dyn Fn() -> Result<Playback<L>, String>;
+
 /// Shows a capture to pages.
 pub struct CaptureViewer<L> {
     viewer: Viewer,
-    playback: Playback<L>,
+    /// None only while it is opened again.
+    playback: Option<Playback<L>>,
+    open: Box<Open<L>>,
     frames: Frames,
     /// The frame that pages are to see.
     frame: usize,
@@ -60,12 +68,14 @@ pub struct CaptureViewer<L> {
 }
 
 impl<L: Loop> CaptureViewer<L> {
-    /// Serves pages that connect to `listener`. With `is_read_only` they cannot go on from a moment.
+    /// Serves pages that connect to `listener`. With `is_read_only` they cannot go on from a moment. `open` opens the capture again where
+    /// something is open that no snapshot reaches, so that there is no other way back.
     ///
     /// # Errors
     /// When the server cannot start.
     pub fn start(
         mut playback: Playback<L>,
+        open: impl Fn() -> Result<Playback<L>, String> + 'static,
         listener: TcpListener,
         is_read_only: bool,
     ) -> io::Result<Self> {
@@ -76,7 +86,8 @@ impl<L: Loop> CaptureViewer<L> {
         let frames = Frames::new(playback.sim(), beginning);
         Ok(Self {
             viewer,
-            playback,
+            playback: Some(playback),
+            open: Box::new(open),
             frames,
             frame: 0,
             is_playing: false,
@@ -119,7 +130,7 @@ impl<L: Loop> CaptureViewer<L> {
     ///
     /// # Errors
     /// When a moment cannot be brought back.
-    pub fn attend(&mut self) -> Result<bool, simulator::Error> {
+    pub fn attend(&mut self) -> Result<bool, String> {
         self.viewer.shared.attend();
         let mut timeout = self.timeout();
         let mut has_answered = false;
@@ -154,6 +165,7 @@ impl<L: Loop> CaptureViewer<L> {
             speed,
             ..
         } = self;
+        let playback = playback.expect(THERE);
         let mut sim = playback.go_live();
         viewer.observer = Observer::default();
         viewer.windows = WindowObserver::default();
@@ -183,7 +195,7 @@ impl<L: Loop> CaptureViewer<L> {
         }
     }
 
-    fn answer(&mut self, action: &Action) -> Result<Result<Value, String>, simulator::Error> {
+    fn answer(&mut self, action: &Action) -> Result<Result<Value, String>, String> {
         match action {
             Action::Play => self.play(),
             Action::Pause => self.pause(),
@@ -200,7 +212,7 @@ impl<L: Loop> CaptureViewer<L> {
             Action::Live => {}
             Action::Inspect(_) | Action::Script(_) | Action::Graph(_) => {
                 self.come_back()?;
-                return Ok(perform(self.playback.sim(), action, &mut Vec::new()));
+                return Ok(perform(self.playback().sim(), action, &mut Vec::new()));
             }
             _ => return Ok(Err("this is a capture: go on from here first".to_owned())),
         }
@@ -218,7 +230,7 @@ impl<L: Loop> CaptureViewer<L> {
         self.schedule(wall_clock::now());
     }
 
-    fn step(&mut self, count: i64) -> Result<(), simulator::Error> {
+    fn step(&mut self, count: i64) -> Result<(), String> {
         self.pause();
         let by = usize::try_from(count.unsigned_abs()).unwrap_or(usize::MAX);
         let frame = match count < 0 {
@@ -240,7 +252,7 @@ impl<L: Loop> CaptureViewer<L> {
     }
 
     /// Shows the next frames, as far as they are due.
-    fn play_on(&mut self) -> Result<(), simulator::Error> {
+    fn play_on(&mut self) -> Result<(), String> {
         let begun = wall_clock::now();
         if begun.duration_since(self.due) > LATE {
             self.due = begun;
@@ -262,12 +274,12 @@ impl<L: Loop> CaptureViewer<L> {
     }
 
     /// Runs to the end of the capture, a part of the way.
-    fn run_ahead(&mut self) -> Result<(), simulator::Error> {
+    fn run_ahead(&mut self) -> Result<(), String> {
         self.know(usize::MAX, PORTION)
     }
 
     /// Runs until that frame is known, or the end, or for so long.
-    fn know(&mut self, frame: usize, limit: Duration) -> Result<(), simulator::Error> {
+    fn know(&mut self, frame: usize, limit: Duration) -> Result<(), String> {
         if frame <= self.frames.last() || self.frames.is_complete() {
             return Ok(());
         }
@@ -278,38 +290,64 @@ impl<L: Loop> CaptureViewer<L> {
     }
 
     /// The first iteration after those that are known; false at the end.
-    fn advance(&mut self) -> Result<bool, simulator::Error> {
-        let goes_on = self.playback.advance()?;
-        let (turn, moments) = (self.playback.turn(), self.playback.moments());
-        let moment = moments[turn];
-        if goes_on {
-            self.frames.note(self.playback.sim(), turn, moment);
-        } else {
-            // What came of an iteration that was broken off does not count.
-            drop(self.playback.sim().take_happenings());
-            let (outcome, is_wrong) = outcome(self.playback.end());
+    fn advance(&mut self) -> Result<bool, String> {
+        let playback = self.playback.as_mut().expect(THERE);
+        let advanced = playback.advance();
+        if !matches!(advanced, Ok(true)) {
+            let (outcome, is_wrong) = outcome(playback.end());
             self.frames.end(outcome, is_wrong);
         }
-        Ok(goes_on)
+        match advanced {
+            Ok(true) => {
+                let turn = playback.turn();
+                let moment = playback.moments()[turn];
+                self.frames.note(playback.sim(), turn, moment);
+                return Ok(true);
+            }
+            // What came of an iteration that was broken off does not count.
+            Ok(false) => drop(playback.sim().take_happenings()),
+            Err(_) => {
+                self.begin_anew()?;
+                self.go_to(self.frames.last_turn())?;
+            }
+        }
+        Ok(false)
     }
 
     /// Goes to the moment that is shown.
-    fn come_back(&mut self) -> Result<(), simulator::Error> {
+    fn come_back(&mut self) -> Result<(), String> {
         self.go_to(self.frames.turn_of(self.frame))
     }
 
-    fn go_to(&mut self, turn: usize) -> Result<(), simulator::Error> {
-        if self.playback.turn() == turn {
+    fn playback(&mut self) -> &mut Playback<L> {
+        self.playback.as_mut().expect(THERE)
+    }
+
+    /// Opens the capture again, at its beginning.
+    fn begin_anew(&mut self) -> Result<(), String> {
+        // What was there before makes room, so that the memory of the new simulator is at the same addresses.
+        drop(self.playback.take());
+        self.playback = Some((self.open)()?);
+        self.viewer.observer = Observer::that_rereads();
+        Ok(())
+    }
+
+    fn go_to(&mut self, turn: usize) -> Result<(), String> {
+        if self.playback().turn() == turn {
             return Ok(());
         }
-        self.playback.go_to(turn)?;
+        if self.playback().go_to(turn).is_err() {
+            self.begin_anew()?;
+            let gone = self.playback().go_to(turn);
+            gone.map_err(|error| error.to_string())?;
+        }
         // What happens again is known.
-        drop(self.playback.sim().take_happenings());
+        drop(self.playback().sim().take_happenings());
         Ok(())
     }
 
     /// Shows the moment if something changed, and now and then without.
-    fn show(&mut self) -> Result<(), simulator::Error> {
+    fn show(&mut self) -> Result<(), String> {
         let now = wall_clock::now();
         if self.list.is_due(now, LIST) && self.viewer.shared.has_pages() {
             let list = self.frames.describe();
@@ -343,7 +381,7 @@ impl<L: Loop> CaptureViewer<L> {
             .lines(0, all)
             .filter(|line| line.is_script_error());
         self.viewer.observer.set_errors(errors);
-        let sim = self.playback.sim();
+        let sim = self.playback.as_mut().expect(THERE).sim();
         sim.refresh_poses();
         let seen = {
             let scene = sim.scene();
