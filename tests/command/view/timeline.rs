@@ -34,8 +34,12 @@ const BEGINNING: [&str; 2] = ["ready", "Simulation started."];
 
 /// A capture of two seconds of that, in a viewer.
 fn captured(script: &str, options: &[&str]) -> Served {
+    captured_file("scene.lua", script, options)
+}
+
+fn captured_file(name: &str, script: &str, options: &[&str]) -> Served {
     let folder = tempfile::tempdir().expect("a folder");
-    let scene = folder.path().join("scene.lua");
+    let scene = folder.path().join(name);
     std::fs::write(&scene, script).expect("the scene is written");
     let run = Command::new(env!("CARGO_BIN_EXE_swanilda"))
         .args(["run", "--time", "2", "--quiet"])
@@ -443,4 +447,21 @@ fn the_capture_of_a_failed_test_is_shown_as_a_recording() {
         .expect("it is compressed");
     let text = String::from_utf8_lossy(&text).into_owned();
     assert!(text.contains(&format!("stamp, {stamp}")), "the console");
+}
+
+#[test]
+fn scripts_in_python_are_played_and_end_live_with_an_error() {
+    let has_python = Command::new("python3").arg("--version").output();
+    if !has_python.is_ok_and(|output| output.status.success()) {
+        return test_support::skipped_outside_of_ci("there is no python3");
+    }
+    let script = "#python\ndef sysCall_init():\n    global sim\n    sim = require('sim')\n    d = sim.createDummy(0.1)\n    sim.setObjectAlias(d, 'mover')\ndef sysCall_actuation():\n    print('at', sim.getSimulationTime())\n";
+    let served = captured_file("scene.py", script, &["--speed=0"]);
+    let mut shown = Shown::of(&served);
+    let (late, early) = (shown.at(20), shown.at(5));
+    assert_eq!((early.2.len() + 15, shown.at(20)), (late.2.len(), late));
+    shown.go_on();
+    assert_eq!(shown.ask(json!({"do": "play"})), Ok(json!(true)));
+    let ended = "the Python process of this script has ended.";
+    shown.until(|shown| shown.lines.iter().any(|line| line.contains(ended)));
 }
