@@ -22,7 +22,9 @@ class Simulator:
     def __init__(self, *args, command="serve"):
         self.folder = tempfile.TemporaryDirectory()
         self.capture = os.path.join(self.folder.name, "run.swc")
-        captured = ["--capture", self.capture] if command in ("run", "serve", "view") and "--capture" not in args else []
+        is_played = any(str(arg).endswith(".swc") for arg in args)
+        captures = command in ("run", "serve", "view") and "--capture" not in args and not is_played
+        captured = ["--capture", self.capture] if captures else []
         line = [sys.argv[1], command, "--json", *captured, *args]
         self.process = subprocess.Popen(line, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=ROOT)
         self.lines = []

@@ -13,6 +13,7 @@ use view::CaptureViewer;
 
 /// Shows a capture until ctrl-c or SIGTERM, or until what goes on from it ends.
 pub(super) fn view(args: &Args, path: &Path) -> Outcome {
+    args.capture.refuse("the view of a capture")?;
     if let Some((command, header, tape)) = tests_of(path)? {
         warn_of_version(&header, args.setup.quiet);
         // The test itself drives the simulator, so it runs to its end, and what is shown is a recording of that.
