@@ -9,7 +9,7 @@ use super::launch::Launch;
 use super::live::Live;
 use super::progress::Progress;
 use super::remote::Remote;
-use super::replay::CommandLoop;
+use super::replay::{Captured, CommandLoop};
 use super::setup::Setup;
 use super::view::ViewArgs;
 use capture::Tape;
@@ -45,7 +45,7 @@ pub(super) fn serve(args: &Args) -> Outcome {
         None,
         &tape,
     )?;
-    args.fill(&mut launch)?;
+    args.fill(&mut launch, &tape)?;
     let Launch {
         mut sim,
         output,
@@ -60,31 +60,33 @@ pub(super) fn serve(args: &Args) -> Outcome {
     Ok(code)
 }
 
-impl Args {
-    fn fill(&self, launch: &mut Launch) -> Result<(), String> {
-        launch.fill(ScriptKind::Customization);
-        launch.serve(&self.remote, !self.no_remote_api)
+impl Captured for Args {
+    fn setup(&mut self) -> &mut Setup {
+        &mut self.setup
     }
 
-    /// The simulator of a capture at the beginning of its loop, and that loop.
-    ///
-    /// # Errors
-    /// When a file cannot be read.
-    pub(super) fn played(
+    fn launch(
         &self,
         tape: &Tape,
         interrupt: &Interrupt,
         build: impl FnOnce(Builder) -> Builder,
-    ) -> Result<(Simulator, CommandLoop), String> {
-        let mut launch = Launch::played(
+    ) -> Result<Launch<'_>, String> {
+        Launch::played(
             &self.setup,
             &self.remote,
             self.scene.as_deref(),
             tape,
             interrupt,
             build,
-        )?;
-        self.fill(&mut launch)?;
-        Ok((launch.sim, CommandLoop::Live))
+        )
+    }
+
+    fn fill(&self, launch: &mut Launch<'_>, _: &Tape) -> Result<(), String> {
+        launch.fill(ScriptKind::Customization);
+        launch.serve(&self.remote, !self.no_remote_api)
+    }
+
+    fn begin(&self, _: &mut Simulator) -> CommandLoop {
+        CommandLoop::Live
     }
 }

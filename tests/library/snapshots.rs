@@ -133,7 +133,7 @@ fn refusal(open: &str, close: &str) -> String {
         .replace(&path.display().to_string(), "PATH")
 }
 
-/// Files of scripts are no memory: whoever has one open hears of it.
+/// Files of scripts are no memory: a snapshot names those that are open.
 #[test]
 fn files_that_are_open_are_named() {
     let file = "a snapshot does not reach the file PATH: close it first.";

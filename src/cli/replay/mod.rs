@@ -22,7 +22,7 @@ use super::setup::Setup;
 use super::{Cli, Command, Outcome, complain};
 pub(super) use command_loop::CommandLoop;
 use moments::MomentArgs;
-pub(super) use open::{is_capture, open, tests_of};
+pub(super) use open::{Captured, is_capture, open, tests_of};
 
 /// Exit code when the run differs from its capture.
 const DIFFERS: u8 = 1;

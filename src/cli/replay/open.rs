@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use capture::{CaptureError, Header, Tape};
-use simulator::{Builder, Playback};
+use simulator::{Builder, Playback, Simulator};
 
 use super::{CommandLoop, command};
 use crate::cli::Command;
 use crate::cli::interrupt::Interrupt;
+use crate::cli::launch::Launch;
+use crate::cli::setup::Setup;
 
 /// Whether a file is a capture, by its first bytes.
 pub(in crate::cli) fn is_capture(path: &Path) -> bool {
@@ -32,6 +34,32 @@ pub(in crate::cli) fn tests_of(
     })
 }
 
+/// A command whose captures are played.
+pub(in crate::cli) trait Captured {
+    /// Its options about the simulator.
+    fn setup(&mut self) -> &mut Setup;
+
+    /// A simulator without a scene, in which everything comes from the tape. `build` adds a console, and a debugger if there is one.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    fn launch(
+        &self,
+        tape: &Tape,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Launch<'_>, String>;
+
+    /// Fills the scene, and starts the remote APIs.
+    ///
+    /// # Errors
+    /// When a port is not free.
+    fn fill(&self, launch: &mut Launch<'_>, tape: &Tape) -> Result<(), String>;
+
+    /// The loop of the command, which begins.
+    fn begin(&self, sim: &mut Simulator) -> CommandLoop;
+}
+
 /// The run of a capture, at its beginning. `build` adds a console, and a debugger if there is one.
 ///
 /// # Errors
@@ -45,22 +73,15 @@ pub(in crate::cli) fn open(
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     let (tape, header) = Tape::replaying(path).map_err(|error| unreadable(error.to_string()))?;
     let command = command(&header).map_err(unreadable)?;
-    let (sim, command_loop) = match command {
-        Command::Run(mut run) => {
-            run.setup.for_replay(threads);
-            run.setup.json = false;
-            run.played(&tape, interrupt, build)?
-        }
-        Command::Serve(mut serve) => {
-            serve.setup.for_replay(threads);
-            serve.setup.json = false;
-            serve.played(&tape, interrupt, build)?
-        }
-        Command::View(mut view) => {
-            view.setup.for_replay(threads);
-            view.setup.json = false;
-            view.played(&tape, interrupt, build)?
-        }
+    let open = Opening {
+        tape: &tape,
+        threads,
+        interrupt,
+    };
+    let playback = match command {
+        Command::Run(run) => open.playback(*run, build)?,
+        Command::Serve(serve) => open.playback(serve, build)?,
+        Command::View(view) => open.playback(view, build)?,
         Command::Test(_) | Command::Batch(_) => {
             let reason = "the capture of a test or a batch runs from its beginning to its end only: see `swanilda replay`";
             return Err(unreadable(reason.into()));
@@ -71,5 +92,30 @@ pub(in crate::cli) fn open(
             ));
         }
     };
-    Ok((Playback::new(sim, command_loop), header))
+    Ok((playback, header))
+}
+
+/// What a capture is opened with.
+struct Opening<'a> {
+    tape: &'a Tape,
+    threads: Option<u16>,
+    interrupt: &'a Interrupt,
+}
+
+impl Opening<'_> {
+    /// The run of a command at the beginning of its loop.
+    fn playback(
+        &self,
+        mut command: impl Captured,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Playback<CommandLoop>, String> {
+        let setup = command.setup();
+        setup.for_replay(self.threads);
+        setup.json = false;
+        let mut launch = command.launch(self.tape, self.interrupt, build)?;
+        command.fill(&mut launch, self.tape)?;
+        let mut sim = launch.sim;
+        let command_loop = command.begin(&mut sim);
+        Ok(Playback::new(sim, command_loop))
+    }
 }

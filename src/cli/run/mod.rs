@@ -20,7 +20,7 @@ use super::output::Output;
 use super::progress::Progress;
 use super::recording::RecordArgs;
 use super::remote::Remote;
-use super::replay::CommandLoop;
+use super::replay::{Captured, CommandLoop};
 use super::session::{END, Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
@@ -115,7 +115,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         args.limits(),
         args.setup.quiet || args.setup.json || args.no_start,
     );
-    let launch = Launch::new(
+    let mut launch = Launch::new(
         &args.setup,
         Some(&args.remote),
         Some(&args.scene),
@@ -124,7 +124,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         &tape,
     )?;
     let begun = Instant::now();
-    let (launch, is_robot) = args.fill(launch, &tape)?;
+    let is_robot = args.fill_and_classify(&mut launch, &tape)?;
     let Launch {
         mut sim,
         output,
@@ -216,46 +216,52 @@ fn count(text: &str) -> Result<u64, String> {
         .map_err(|_| "a whole number is needed, zero or more".to_owned())
 }
 
-impl Args {
-    /// Fills the scene and starts the remote APIs; also whether the scene is a robot.
-    fn fill<'a>(&self, mut launch: Launch<'a>, tape: &Tape) -> Result<(Launch<'a>, bool), String> {
-        let permissions = Permissions::all().on_tape(tape);
-        let is_robot = RobotFile::is_one(&self.scene, &permissions);
-        launch.fill(self.kind.into());
-        launch.serve(&self.remote, self.remote.asks_for_zmq())?;
-        Ok((launch, is_robot))
+impl Captured for Args {
+    fn setup(&mut self) -> &mut Setup {
+        &mut self.setup
     }
 
-    /// The simulator of a capture at the beginning of its loop, and that loop.
-    ///
-    /// # Errors
-    /// When a file cannot be read.
-    pub(super) fn played(
+    fn launch(
         &self,
         tape: &Tape,
         interrupt: &Interrupt,
         build: impl FnOnce(Builder) -> Builder,
-    ) -> Result<(Simulator, CommandLoop), String> {
-        let launch = Launch::played(
+    ) -> Result<Launch<'_>, String> {
+        Launch::played(
             &self.setup,
             &self.remote,
             Some(&self.scene),
             tape,
             interrupt,
             build,
-        )?;
-        let (launch, _) = self.fill(launch, tape)?;
-        let mut sim = launch.sim;
-        let command_loop = if self.view.is_asked_for() {
-            CommandLoop::Viewed(self.viewed(&mut sim))
+        )
+    }
+
+    fn fill(&self, launch: &mut Launch<'_>, tape: &Tape) -> Result<(), String> {
+        self.fill_and_classify(launch, tape).map(drop)
+    }
+
+    fn begin(&self, sim: &mut Simulator) -> CommandLoop {
+        if self.view.is_asked_for() {
+            CommandLoop::Viewed(self.viewed(sim))
         } else if self.no_start {
             CommandLoop::Free { left: self.loops }
         } else if sim.errors() > 0 && !self.has_end() {
             CommandLoop::Free { left: 0 }
         } else {
-            CommandLoop::Run(Run::begin(&mut sim, self.limits()))
-        };
-        Ok((sim, command_loop))
+            CommandLoop::Run(Run::begin(sim, self.limits()))
+        }
+    }
+}
+
+impl Args {
+    /// Fills the scene and starts the remote APIs; also whether the scene is a robot.
+    fn fill_and_classify(&self, launch: &mut Launch<'_>, tape: &Tape) -> Result<bool, String> {
+        let permissions = Permissions::all().on_tape(tape);
+        let is_robot = RobotFile::is_one(&self.scene, &permissions);
+        launch.fill(self.kind.into());
+        launch.serve(&self.remote, self.remote.asks_for_zmq())?;
+        Ok(is_robot)
     }
 
     /// A simulator with the scene in it, which `build` makes of the options.

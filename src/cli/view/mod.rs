@@ -15,7 +15,7 @@ use super::live::Live;
 use super::output::Output;
 use super::progress::Progress;
 use super::remote::Remote;
-use super::replay::{CommandLoop, is_capture};
+use super::replay::{Captured, CommandLoop, is_capture};
 use super::run::Kind;
 use super::setup::Setup;
 use super::watchdog::Watchdog;
@@ -152,17 +152,14 @@ pub(super) fn view(args: &Args) -> Outcome {
         &launch.output,
         &launch.watchdog,
     )?;
-    args.fill(&mut launch)?;
+    args.fill(&mut launch, &tape)?;
     let Launch {
         mut sim, interrupt, ..
     } = launch;
-    sim.set_pace(args.speed);
     if let Some(viewer) = &viewer {
         args.open_browser(&viewer.url());
     }
-    if !args.paused {
-        sim.start();
-    }
+    args.begin(&mut sim);
     let code = Live::new(viewer).run(&mut sim, &interrupt);
     drop(sim);
     finish(&tape);
@@ -187,39 +184,42 @@ fn view_recording(args: &Args, path: &Path) -> Outcome {
     Ok(interrupt.outcome())
 }
 
-impl Args {
-    fn fill(&self, launch: &mut Launch) -> Result<(), String> {
-        launch.fill(self.kind.into());
-        launch.serve(&self.remote, self.remote.asks_for_zmq())
+impl Captured for Args {
+    fn setup(&mut self) -> &mut Setup {
+        &mut self.setup
     }
 
-    /// The simulator of a capture at the beginning of its loop, and that loop.
-    ///
-    /// # Errors
-    /// When a file cannot be read.
-    pub(super) fn played(
+    fn launch(
         &self,
         tape: &Tape,
         interrupt: &Interrupt,
         build: impl FnOnce(Builder) -> Builder,
-    ) -> Result<(Simulator, CommandLoop), String> {
-        let mut launch = Launch::played(
+    ) -> Result<Launch<'_>, String> {
+        Launch::played(
             &self.setup,
             &self.remote,
             self.scene.as_deref(),
             tape,
             interrupt,
             build,
-        )?;
-        self.fill(&mut launch)?;
-        let mut sim = launch.sim;
+        )
+    }
+
+    fn fill(&self, launch: &mut Launch<'_>, _: &Tape) -> Result<(), String> {
+        launch.fill(self.kind.into());
+        launch.serve(&self.remote, self.remote.asks_for_zmq())
+    }
+
+    fn begin(&self, sim: &mut Simulator) -> CommandLoop {
         sim.set_pace(self.speed);
         if !self.paused {
             sim.start();
         }
-        Ok((sim, CommandLoop::Live))
+        CommandLoop::Live
     }
+}
 
+impl Args {
     fn listen(&self) -> Result<TcpListener, String> {
         let bound = TcpListener::bind((self.remote.address(), self.port));
         bound.map_err(|error| self.failed(&error))

@@ -90,7 +90,7 @@ pub struct Session {
     is_replay: Cell<bool>,
     /// It is loaded.
     can_travel: Cell<bool>,
-    /// What the replay looks for.
+    /// What the replay runs for.
     goal: RefCell<Goal>,
     /// The last stop: its position, and where a step back from there begins.
     last_stop: Cell<(Position, Option<Origin>)>,

@@ -246,7 +246,7 @@ impl Session {
         self.stop.replace(Some(stop));
         self.send(stopped_event(thread, reason));
         if self.is_replay.get() {
-            // What the client looks at and changes is no part of the run.
+            // What the client inspects and changes is no part of the run.
             sim.without_trace(|| self.answer_until_it_goes_on(sim));
         } else {
             self.answer_until_it_goes_on(sim);

@@ -127,7 +127,7 @@ impl Session {
         self.arm_all(Some(sim));
     }
 
-    /// The replay is at its beginning or its end: the client looks around, and may go elsewhere.
+    /// The replay is at its beginning or its end: the client inspects it, and may go elsewhere.
     pub fn stop_at_border(&self, sim: &Rc<Sim>, description: &str) {
         self.goal.replace(Goal::Live);
         self.advance();

@@ -1,7 +1,7 @@
-// Windows of scripts (simUI) above the scene: frames that can be dragged and remember their place; what is in them makes widgets.js.
+// Windows of scripts (simUI) above the scene: frames that can be dragged and remember their place; what is in them makes widgets/container.js.
 import { el, iconButton, setText } from '../dom.js';
 import { remember, setting } from '../settings.js';
-import { container } from './widgets.js';
+import { container } from './widgets/container.js';
 
 const MARGIN = 12;
 const NARROW = 640; // pixels; there windows are folded at first, so that the scene is seen

@@ -3,6 +3,8 @@
 //! One simulator does all of it. As long as nothing else is to do it runs ahead to the end of the capture, which is how the timeline becomes
 //! known; for what a page asks it goes back to the moment that is shown.
 
+mod show;
+
 use std::io;
 use std::net::TcpListener;
 use std::time::{Duration, Instant};
@@ -12,7 +14,7 @@ use serde_json::Value;
 use super::frames::Frames;
 use super::{FRAME, Timer, Viewer};
 use crate::busy::BusySign;
-use crate::observe::{Observer, Played, Source, WindowObserver, describe_line};
+use crate::observe::{Observer, WindowObserver};
 use crate::perform::perform;
 use crate::request::Action;
 use ::capture::Verdict;
@@ -20,20 +22,14 @@ use script::log::{RecentLine, verbosity};
 use script::wall_clock;
 use simulator::{Loop, Playback, Simulator};
 
-/// Work between two looks at the requests of pages.
+/// Work between two polls of the requests of pages.
 const PORTION: Duration = Duration::from_millis(15);
 /// Between two observations of a moment that stays: for what pages begin to watch.
 const REST: Duration = Duration::from_millis(100);
-/// The same while it runs ahead and has to come back for it.
-const REST_AHEAD: Duration = Duration::from_secs(1);
-/// Between two descriptions of the timeline.
-const LIST: Duration = Duration::from_millis(250);
 /// Longest work for a step into what is not known yet.
 const STEP: Duration = Duration::from_secs(2);
 /// Later than that it does not catch up.
 const LATE: Duration = Duration::from_millis(250);
-/// Lines of the console that pages have.
-const LINES: usize = 2000;
 
 /// What scripts do not have when a capture goes on.
 const NOTE: &str = "live from here. What the captured run had open is not there: connections and servers, programs and Python scripts, devices. \
@@ -344,80 +340,6 @@ impl<L: Loop> CaptureViewer<L> {
         // What happens again is known.
         drop(self.playback().sim().take_happenings());
         Ok(())
-    }
-
-    /// Shows the moment if something changed, and now and then without.
-    fn show(&mut self) -> Result<(), String> {
-        let now = wall_clock::now();
-        if self.list.is_due(now, LIST) && self.viewer.shared.has_pages() {
-            let list = self.frames.describe();
-            if self.viewer.shared.mirror().show_list("timeline", &list) {
-                self.viewer.server.waker().wake();
-            }
-        }
-        let rest = if self.frames.is_complete() || self.is_playing {
-            REST
-        } else {
-            REST_AHEAD
-        };
-        let is_due = match self.is_new {
-            true => self.viewer.frame.is_due(now, FRAME),
-            false => self.rest.is_due(now, rest),
-        };
-        if !is_due || !self.viewer.shared.has_pages() {
-            return Ok(());
-        }
-        self.come_back()?;
-        self.is_new = false;
-        self.show_moment();
-        Ok(())
-    }
-
-    fn show_moment(&mut self) {
-        self.show_lines();
-        let all = self.frames.count_of_lines(self.frame);
-        let errors = self
-            .frames
-            .lines(0, all)
-            .filter(|line| line.is_script_error());
-        self.viewer.observer.set_errors(errors);
-        let sim = self.playback.as_mut().expect(THERE).sim();
-        sim.refresh_poses();
-        let seen = {
-            let scene = sim.scene();
-            let source = Source {
-                is_read_only: true,
-                played: Some(Played {
-                    frame: self.frame,
-                    is_playing: self.is_playing,
-                    speed: self.speed,
-                    goes_on: !self.viewer.is_read_only,
-                }),
-                ..Source::of(sim, &scene)
-            };
-            self.viewer.observer.observe(&source, &[])
-        };
-        let windows = self.viewer.windows.observe_all(sim);
-        let found = self.viewer.find_demanded(sim);
-        self.viewer.publish(seen, windows, found);
-    }
-
-    /// The console has the lines up to the moment.
-    fn show_lines(&mut self) {
-        let all = self.frames.count_of_lines(self.frame);
-        let shown = self.lines.replace(all);
-        if shown == Some(all) {
-            return;
-        }
-        let from = match shown {
-            Some(shown) if shown < all && all - shown < LINES => shown,
-            _ => all.saturating_sub(LINES),
-        };
-        let lines: Vec<String> = self.frames.lines(from, all).map(describe_line).collect();
-        self.viewer
-            .shared
-            .mirror()
-            .show_lines(lines, Some(from) == shown);
     }
 }
 

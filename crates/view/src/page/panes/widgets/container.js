@@ -1,6 +1,6 @@
 // The elements of simUI as HTML forms, by the JSON of crates/ui: a function per kind, and containers with their layouts.
-import { el } from '../dom.js';
-import { collections } from './widgets_collections.js';
+import { el } from '../../dom.js';
+import { collections } from './collections.js';
 import { richText } from './rich_text.js';
 
 /** @typedef {{id: string, enabled: boolean, send: function(any): void}} Form the window that widgets belong to; functions of a kind get `send` of their widget, and the form as `whole` */

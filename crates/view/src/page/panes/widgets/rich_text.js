@@ -1,5 +1,5 @@
 // The HTML that scripts write into labels, without ever being HTML of this page: a few harmless elements are made anew, all else is text.
-import { el } from '../dom.js';
+import { el } from '../../dom.js';
 
 const KEPT = {
   b: 'strong', strong: 'strong', i: 'em', em: 'em', u: 'u', s: 's', p: 'p', div: 'div', center: 'div', span: 'span', font: 'span', big: 'span', small: 'small', sub: 'sub', sup: 'sup', code: 'code', tt: 'code',

@@ -1,8 +1,8 @@
 // The element scene3d of simUI: entities with meshes, materials and transforms, in the terms of Qt3D, on a canvas. All of them share one context of WebGL.
-import { add, Box, cross, dot, length, normalized, perspective, product, projected, quaternionProduct, rotationRows, scaled, sub, viewMatrix } from '../maths.js';
-import { el } from '../dom.js';
-import { context, PLACES, Program } from '../render/gpu/gl.js';
-import { box, cylinder, quad, sphere, torus } from '../render/gpu/primitives.js';
+import { add, Box, cross, dot, length, normalized, perspective, product, projected, quaternionProduct, rotationRows, scaled, sub, viewMatrix } from '../../maths.js';
+import { el } from '../../dom.js';
+import { context, PLACES, Program } from '../../render/gpu/gl.js';
+import { box, cylinder, quad, sphere, torus } from '../../render/gpu/primitives.js';
 
 const SIZE = [320, 240]; // pixels
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
