@@ -1,5 +1,6 @@
 //! `swanilda replay` with a question: where the run is at a time, when a property changed, when something became true, and who did it.
 
+use std::cell::Cell;
 use std::process::ExitCode;
 use std::rc::Rc;
 
@@ -57,12 +58,13 @@ impl MomentArgs {
 /// Answers the question; exit code 1 when there is no such moment.
 pub(super) fn answer(args: &Args) -> Outcome {
     let watch = args.moments.watch();
+    let is_over = Rc::<Cell<bool>>::default();
     let console: Box<dyn Console> = match args.moments {
         MomentArgs {
             last_change: None,
             when: None,
             ..
-        } if !args.json => Box::new(Printer),
+        } if !args.json => Box::new(Printer(Rc::clone(&is_over))),
         _ => Box::new(Silent),
     };
     let debugger = Rc::clone(&watch);
@@ -80,6 +82,7 @@ pub(super) fn answer(args: &Args) -> Outcome {
         (None, Some(_)) => search.first_truth(),
         (None, None) => search.time(),
     };
+    is_over.set(true);
     Ok(match found? {
         Some(found) => {
             found.print(args.json);
@@ -217,16 +220,20 @@ impl Found {
     }
 }
 
-/// Prints what scripts print.
-struct Printer;
+/// Prints what scripts print, until the answer is found: what they do at the end of the simulator is no part of the run.
+struct Printer(Rc<Cell<bool>>);
 
 impl Console for Printer {
     fn print(&mut self, line: &[u8], _: f64) {
-        say(line);
-        say(b"\n");
+        if !self.0.get() {
+            say(line);
+            say(b"\n");
+        }
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
-        say(format!("{}\n", line.located()).as_bytes());
+        if !self.0.get() {
+            say(format!("{}\n", line.located()).as_bytes());
+        }
     }
 }
