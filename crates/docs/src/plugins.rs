@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{approximated::difference, modules};
-use plugin_host::symbols;
+use c_interface::symbols;
 use script::ReferenceModule;
 
 /// State of a module.
@@ -91,7 +91,7 @@ fn row(module: ReferenceModule, state: State) -> String {
 
 #[cfg(test)]
 mod tests {
-    use plugin_host::symbols;
+    use c_interface::symbols;
     use script::Member;
 
     #[test]

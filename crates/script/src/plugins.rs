@@ -7,7 +7,7 @@ use std::rc::{Rc, Weak};
 use super::error::{ApiError, ApiResult};
 use super::log::verbosity;
 use crate::host::{Script, Sim};
-use plugin_host::{Host, Moment, Plugin, Plugins};
+use c_interface::{Host, Moment, Plugin, Plugins};
 use scene::object::script_object::ScriptType;
 use scene::{Data, Journal, Mark, Topic, Topics};
 

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
-use plugin_host::Variable;
+use c_interface::Variable;
 use scene::Data;
 use script::log::verbosity;
 use script::{Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, changed_level};

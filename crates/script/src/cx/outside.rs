@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::Cx;
 use crate::error::ApiResult;
 use io::EventLoop;
-use plugin_host::Plugin;
+use c_interface::Plugin;
 use scene::Data;
 
 impl Cx<'_> {

@@ -9,7 +9,7 @@ use crate::sys_call::SysCall;
 use format::scene_file::{LoadedScript, SceneFile, save, write_whole};
 use format::ttt::File;
 use format::xml::{self, Variant};
-use plugin_host::Moment;
+use c_interface::Moment;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError};
 

@@ -7,7 +7,7 @@ use crate::host::{Script, Sim};
 use crate::log::verbosity;
 use crate::sys_call::SysCall;
 use format::scene_file::{Loaded, LoadedScript, SceneFile};
-use plugin_host::Moment;
+use c_interface::Moment;
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 

@@ -14,7 +14,7 @@ use crate::clock::SimulationState;
 use crate::host::{Script, ScriptGroup, Sim, state};
 use crate::lifecycle::selection_data;
 use crate::sys_call::SysCall;
-use plugin_host::Moment;
+use c_interface::Moment;
 use scene::object::script_object::ScriptType;
 
 impl Sim {
