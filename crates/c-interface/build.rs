@@ -1,4 +1,5 @@
-//! Compiles the library whose symbols plugins look up: one C function for each row, which passes its parameters to the simulator.
+//! Compiles the libraries whose symbols plugins and programs look up: one C function for each row, which passes its parameters to the
+//! simulator.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,14 +11,16 @@ mod signature;
 
 use signature::{Param, Size, Symbol, name};
 
-const ROWS: &str = include_str!("src/symbols.tsv");
-
-/// The beginning of the C file. A value is what C passes for one parameter.
+/// The beginning of each C file. A value is what C passes for one parameter.
 const HEAD: &str = r"#include <stdbool.h>
 #include <stdint.h>
 #include <stddef.h>
 struct SScriptCallBack;
 typedef struct { int64_t integer; double number; void* pointer; } value;
+";
+
+/// The library for plugins calls the process that has opened it.
+const CONNECTED: &str = r"
 typedef int64_t (*entrance)(uint32_t row, value* values, uint32_t count);
 static entrance enter = NULL;
 void swanilda_connect(entrance e) { enter = e; }
@@ -26,29 +29,65 @@ static int64_t call(uint32_t row, value* values, uint32_t count, int64_t failure
 }
 ";
 
-/// Makes `OUT_DIR/libswanilda_plugin.so`; an empty file where plugins are not supported.
+/// The library for programs calls the simulator's library, which lies beside it.
+const LINKED: &str = r"
+int64_t swanilda_library_call(uint32_t interface, uint32_t row, value* values, uint32_t count);
+static int64_t call(uint32_t row, value* values, uint32_t count, int64_t failure) {
+    (void)failure;
+    return swanilda_library_call(INTERFACE, row, values, count);
+}
+";
+
+/// What the simulator's library has, to link against before it exists.
+const SIMULATOR: &str =
+    "long long swanilda_library_call(unsigned a, unsigned b, void* c, unsigned d) { return -1; }";
+
+/// Makes in `OUT_DIR` the library for plugins, and those for programs; empty files where they are not supported.
 #[allow(
     clippy::disallowed_methods,
     reason = "cargo tells a build script its target through the environment"
 )]
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    compile(&out);
+    for file in ["signature.rs", "symbols_410.tsv", "symbols_41.tsv"] {
+        println!("cargo:rerun-if-changed=src/{file}");
+    }
+    let is = |name: &str, value: &str| env::var(name).is_ok_and(|is| is == value);
+    let plugins = [CONNECTED, &functions(include_str!("src/symbols_410.tsv"))].concat();
+    let is_unix = is("CARGO_CFG_TARGET_FAMILY", "unix");
+    compile(is_unix, &out, "libswanilda_plugin.so", &plugins, &[]);
+    let is_linux = is("CARGO_CFG_TARGET_OS", "linux");
+    compile_for_programs(is_linux, &out);
+}
+
+/// One for each version of CoppeliaSim whose library programs load.
+fn compile_for_programs(is_supported: bool, out: &Path) {
+    compile(is_supported, out, "libswanilda_library.so", SIMULATOR, &[]);
+    let folder = format!("-L{}", out.display());
+    let link = [
+        "-Wl,-soname,libcoppeliaSim.so.1",
+        "-Wl,-rpath,$ORIGIN",
+        &folder,
+        "-lswanilda_library",
+    ];
+    let library = |interface: &str, table: &'static str| {
+        format!("#define INTERFACE {interface}{LINKED}{}", functions(table))
+    };
+    let for_41 = library("0", include_str!("src/symbols_41.tsv"));
+    compile(is_supported, out, "libcoppeliaSim_41.so", &for_41, &link);
 }
 
 #[allow(
     clippy::disallowed_methods,
     reason = "cargo tells a build script its target through the environment"
 )]
-fn compile(out: &Path) {
-    println!("cargo:rerun-if-changed=src/symbols.tsv");
-    println!("cargo:rerun-if-changed=src/signature.rs");
-    let library = out.join("libswanilda_plugin.so");
-    if env::var("CARGO_CFG_TARGET_FAMILY").is_ok_and(|family| family != "unix") {
+fn compile(is_supported: bool, out: &Path, name: &str, text: &str, link: &[&str]) {
+    let library = out.join(name);
+    if !is_supported {
         return fs::write(library, b"").expect("the output folder is writable");
     }
-    let source = out.join("libswanilda_plugin.c");
-    fs::write(&source, text()).expect("the output folder is writable");
+    let source = library.with_extension("c");
+    fs::write(&source, [HEAD, text].concat()).expect("the output folder is writable");
     let compiler = cc::Build::new()
         .pic(true)
         .opt_level(2)
@@ -60,6 +99,7 @@ fn compile(out: &Path) {
         .args(["-shared", "-fvisibility=default", "-o"])
         .arg(&library)
         .arg(&source)
+        .args(link)
         .status();
     assert!(
         status.is_ok_and(|status| status.success()),
@@ -68,9 +108,9 @@ fn compile(out: &Path) {
     );
 }
 
-fn text() -> String {
-    let mut text = String::from(HEAD);
-    for (number, row) in signature::rows(ROWS).iter().enumerate() {
+fn functions(table: &'static str) -> String {
+    let mut text = String::new();
+    for (number, row) in signature::rows(table).iter().enumerate() {
         let body = if row.is_missing() {
             missing(row, number)
         } else {
@@ -97,7 +137,7 @@ fn missing(row: &Symbol, number: usize) -> String {
     let call = format!("call({number}, NULL, 0, 0)");
     match row.result {
         'v' => format!("{call};"),
-        'd' => format!("{call}; return -1.0;"),
+        'd' | 'f' => format!("{call}; return -1.0;"),
         _ if row.returns_pointer() => format!("{call}; return NULL;"),
         _ => format!("{call}; return -1;"),
     }
@@ -120,7 +160,10 @@ fn passing(row: &Symbol, number: usize) -> String {
     let call = format!("call({number}, v, {}, {failure})", values.len() + 1);
     match row.result {
         'v' => format!("{array} {call};"),
-        'd' => format!("{array} {call}; return v[{}].number;", values.len()),
+        'd' | 'f' => {
+            let kind = row.c_result();
+            format!("{array} {call}; return ({kind})v[{}].number;", values.len())
+        }
         _ if row.returns_pointer() => {
             format!("{array} return ({})(intptr_t){call};", row.c_result())
         }

@@ -17,6 +17,8 @@ mod export;
 mod files;
 mod init;
 mod inspect;
+mod library;
+mod original;
 mod remote;
 mod render;
 mod replay;
@@ -72,6 +74,9 @@ enum Command {
     Convert(convert::Args),
     Diff(diff::Args),
     Init(init::Args),
+    Library(library::Args),
+    #[command(name = "coppeliasim")]
+    Original(original::Args),
     /// Print a completion script for a shell
     Completions {
         shell: Shell,
@@ -138,6 +143,8 @@ impl Command {
             Self::Convert(args) => convert::convert(&args),
             Self::Diff(args) => diff::diff(&args),
             Self::Init(args) => init::init(&args),
+            Self::Library(args) => library::library(&args),
+            Self::Original(args) => original::start(&args),
             Self::Completions { shell } => {
                 let mut script = Vec::new();
                 clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut script);

@@ -49,7 +49,7 @@ const STREAM: Api = Api {
 };
 
 /// Where programs with `simxStart` look for a simulator.
-const LEGACY_PORT: &str = "19997";
+pub(super) const LEGACY_PORT: u16 = 19997;
 
 impl Api {
     fn is_refused(&self, setup: &Setup) -> bool {
@@ -67,7 +67,7 @@ pub(super) struct Remote {
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     ws_remote_api: Option<Option<u16>>,
     /// Serve the legacy remote API (simxStart) as well, at PORT; may be repeated: a port serves one program [default port: 19997]
-    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true, default_missing_value = LEGACY_PORT)]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true, default_missing_value = "19997")]
     legacy_remote_api: Vec<u16>,
     /// Serve CoppeliaSim's visualization stream for its web front end [default: first free port from 23020]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]

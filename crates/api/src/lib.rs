@@ -139,5 +139,11 @@ pub static SIM: Module = Module {
     ..Module::new("sim")
 };
 
+/// The module of functions that only programs call which load the simulator as a library.
+pub static LIBRARY: Module = Module {
+    inner: &[old::library::FUNCTIONS],
+    ..Module::new("swanilda.library")
+};
+
 /// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
 pub const TIERS: &str = include_str!("tables/tiers.tsv");

@@ -21,9 +21,32 @@ impl Buffers {
         (address as u64).cast_signed()
     }
 
-    /// Releases it; false where the simulator has made nothing there.
+    /// Keeps a list of addresses of texts, and behind it the texts; returns its address.
+    pub fn add_texts(&mut self, texts: &[Vec<u8>]) -> i64 {
+        let ends_with_nul = |text: &Vec<u8>| text.iter().copied().chain([0]).collect::<Vec<u8>>();
+        let bytes: Vec<u8> = texts.iter().flat_map(ends_with_nul).collect();
+        let start = self.add(&[vec![0; 8 * texts.len()], bytes].concat());
+        let Some(words) = usize::try_from(start)
+            .ok()
+            .and_then(|start| self.0.get_mut(&start))
+        else {
+            return 0;
+        };
+        let mut address = start.cast_unsigned() + 8 * texts.len() as u64;
+        for (word, text) in words.iter_mut().zip(texts) {
+            *word = address;
+            address += text.len() as u64 + 1;
+        }
+        start
+    }
+
+    /// Releases it; false where the simulator has made nothing there. What lies in a larger block is released with it.
     pub fn release(&mut self, address: usize) -> bool {
-        self.0.remove(&address).is_some()
+        if self.0.remove(&address).is_some() {
+            return true;
+        }
+        let before = self.0.range(..address).next_back();
+        before.is_some_and(|(start, words)| address < start + 8 * words.len())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which plugin runs on this thread, and for which simulator.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::buffers::Buffers;
@@ -20,15 +20,18 @@ pub(super) struct Shared {
     pub last_error: RefCell<Option<String>>,
     /// The error that the running callback raises.
     pub raised: RefCell<Option<String>>,
+    /// Memory that the caller does not release, by the function that returned it.
+    lent: RefCell<BTreeMap<&'static str, i64>>,
     /// Missing functions that were called, and are in the log.
     missing: RefCell<BTreeSet<&'static str>>,
 }
 
-/// A call by the simulator into a plugin.
-pub(super) struct Frame {
-    pub shared: Rc<Shared>,
-    pub plugin: Rc<Plugin>,
-    pub host: Rc<dyn Host>,
+/// Who calls the interface, and for which simulator.
+pub struct Frame {
+    pub(super) shared: Rc<Shared>,
+    /// The plugin that the simulator has called; None for a program.
+    pub(super) plugin: Option<Rc<Plugin>>,
+    pub(super) host: Rc<dyn Host>,
 }
 
 thread_local! {
@@ -44,13 +47,10 @@ pub(super) fn current() -> Option<Rc<Frame>> {
 }
 
 /// Runs code of a plugin.
-pub(super) fn within<T>(frame: Frame, code: impl FnOnce(&Plugin) -> T) -> T {
+pub(super) fn within<T>(frame: Frame, code: impl FnOnce() -> T) -> T {
     let _leave = Leave;
-    let plugin = Rc::clone(&frame.plugin);
     FRAMES.with(|frames| frames.borrow_mut().push(Rc::new(frame)));
-    plugin.calls.set(plugin.calls.get() + 1);
-    let _end = End(&plugin);
-    code(&plugin)
+    code()
 }
 
 struct Leave;
@@ -61,56 +61,137 @@ impl Drop for Leave {
     }
 }
 
-struct End<'a>(&'a Plugin);
+/// Whether calls by this thread have a host.
+pub fn has_frame() -> bool {
+    current().is_some()
+}
 
-impl Drop for End<'_> {
+/// From now on the calls of a program by this thread go to `host`, until the result is dropped. Memory that was made for the program
+/// before, and its last error, remain.
+pub fn attach(host: Rc<dyn Host>) -> Attached {
+    let before = current();
+    let frame = Rc::new(Frame {
+        shared: before.map_or_else(Rc::default, |before| Rc::clone(&before.shared)),
+        plugin: None,
+        host,
+    });
+    FRAMES.with(|frames| frames.borrow_mut().push(Rc::clone(&frame)));
+    Attached(frame)
+}
+
+/// The thread of a program that calls the simulator.
+pub struct Attached(Rc<Frame>);
+
+impl Drop for Attached {
     fn drop(&mut self) {
-        self.0.calls.set(self.0.calls.get() - 1);
+        // The values of a thread that ends go in no certain order.
+        let _ = FRAMES.try_with(|frames| {
+            frames
+                .borrow_mut()
+                .retain(|frame| !Rc::ptr_eq(frame, &self.0));
+        });
     }
 }
 
 impl Frame {
-    pub fn note_failure(&self, row: &Symbol, reason: String) {
+    /// The simulator.
+    pub fn host(&self) -> &dyn Host {
+        &*self.host
+    }
+
+    /// What the log calls the caller.
+    pub(super) fn origin(&self) -> &str {
+        self.plugin
+            .as_ref()
+            .map_or("library", |plugin| &plugin.name)
+    }
+
+    /// The plugin that calls.
+    ///
+    /// # Errors
+    /// When a program calls.
+    pub(super) fn plugin(&self) -> Result<&Plugin, String> {
+        let plugin = self.plugin.as_deref();
+        plugin.ok_or_else(|| "only plugins may call it".to_owned())
+    }
+
+    pub(super) fn note_failure(&self, row: &Symbol, reason: String) {
         if row.is_missing() && self.shared.missing.borrow_mut().insert(row.symbol) {
             self.host.log(
-                &self.plugin.name,
+                self.origin(),
                 ERRORS,
-                &format!("the plugin calls {}: {reason}", row.symbol),
+                &format!("call of {}: {reason}", row.symbol),
             );
         }
-        self.shared
-            .last_error
-            .replace(Some(format!("{}: {reason}", row.symbol)));
+        self.set_last_error(format!("{}: {reason}", row.symbol));
     }
 
     /// Keeps a result until the plugin releases it; its address, 0 where there is none. `length` becomes the number of its items.
-    pub fn keep(&self, ty: char, result: Option<Data>, length: &mut usize) -> i64 {
-        let bytes = match (ty, result) {
-            ('I', Some(Data::Array(items))) => {
-                *length = items.len();
-                items
-                    .iter()
-                    .flat_map(|item| numbers::low_i32(super::dispatch::integer(item)).to_ne_bytes())
-                    .collect()
-            }
-            ('D', Some(Data::Array(items))) => {
-                *length = items.len();
-                items
-                    .iter()
-                    .flat_map(|item| item.as_f64().unwrap_or_default().to_ne_bytes())
-                    .collect()
-            }
-            (_, Some(Data::Text(bytes) | Data::Buffer(bytes))) => {
-                *length = bytes.len();
-                bytes
-            }
-            _ => {
-                *length = 0;
-                return 0;
-            }
+    pub(super) fn keep(&self, ty: char, result: Option<Data>, length: &mut usize) -> i64 {
+        let Some(bytes) = bytes_of(ty, result, length) else {
+            return 0;
         };
         self.shared.buffers.borrow_mut().add(&bytes)
     }
+
+    /// Keeps a list of addresses of texts, with the texts, as one block that the caller releases; its address.
+    pub(super) fn keep_texts(&self, texts: &[Vec<u8>]) -> i64 {
+        self.shared.buffers.borrow_mut().add_texts(texts)
+    }
+
+    /// What `simGetLastError` returns next.
+    pub(super) fn set_last_error(&self, reason: String) {
+        self.shared.last_error.replace(Some(reason));
+    }
+
+    /// Keeps a result until the next call of `symbol`; its address, 0 where there is none.
+    pub(super) fn lend(
+        &self,
+        symbol: &'static str,
+        result: Option<Data>,
+        length: &mut usize,
+    ) -> i64 {
+        let address = self.keep('F', result, length);
+        let before = self.shared.lent.borrow_mut().insert(symbol, address);
+        if let Some(before) = before.and_then(|before| usize::try_from(before).ok()) {
+            self.shared.buffers.borrow_mut().release(before);
+        }
+        address
+    }
+}
+
+/// A result as C finds it in memory; `length` becomes the number of its items.
+fn bytes_of(ty: char, result: Option<Data>, length: &mut usize) -> Option<Vec<u8>> {
+    let (size, bytes): (usize, Vec<u8>) = match (ty, result) {
+        ('I', Some(Data::Array(items))) => {
+            let integer = |item| numbers::low_i32(super::dispatch::integer(item)).to_ne_bytes();
+            (4, items.iter().flat_map(integer).collect())
+        }
+        ('D', Some(Data::Array(items))) => (
+            8,
+            items
+                .iter()
+                .flat_map(|item| number(item).to_ne_bytes())
+                .collect(),
+        ),
+        ('F', Some(Data::Array(items))) => {
+            let single = |item| numbers::single(number(item)).to_ne_bytes();
+            (4, items.iter().flat_map(single).collect())
+        }
+        // Packed already.
+        ('F', Some(Data::Buffer(bytes))) => (4, bytes),
+        (_, Some(Data::Text(bytes) | Data::Buffer(bytes))) => (1, bytes),
+        _ => {
+            *length = 0;
+            return None;
+        }
+    };
+    *length = bytes.len() / size;
+    Some(bytes)
+}
+
+fn number(item: &Data) -> f64 {
+    item.as_f64().unwrap_or_default()
 }
 
 /// Level of log lines about mistakes.

@@ -6,12 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::current::{Frame, current};
 use super::ffi::Value;
 use super::functions::{self, Function};
+use super::old;
 use super::signature::{self, Param, Size, Symbol};
 use scene::Data;
 use scene::numbers;
-
-/// The symbols plugins may look up, one row for each.
-const SYMBOLS: &str = include_str!("symbols.tsv");
 
 /// Longest list a plugin may pass; a larger count is a mistake.
 const MAX_ITEMS: usize = Data::MAX_ITEMS;
@@ -29,55 +27,97 @@ enum Target {
     Missing,
 }
 
-static BOUND: Lazy<Vec<Bound>> = Lazy::new(|| {
-    let target = |row: &Symbol| match functions::find(row.function) {
-        Some(function) => Target::Own(function),
-        None if row.function.starts_with("sim.") => Target::Api(row.function),
-        None => Target::Missing,
-    };
-    signature::rows(SYMBOLS)
-        .into_iter()
-        .map(|row| Bound {
-            target: target(&row),
-            row,
-        })
-        .collect()
-});
+/// A version of the interface: its symbols, with the functions behind them.
+pub struct Interface(Vec<Bound>);
 
-/// All symbols.
-pub fn symbols() -> impl Iterator<Item = &'static Symbol> {
-    BOUND.iter().map(|bound| &bound.row)
+/// What programs call that load the library of CoppeliaSim 4.1, whose numbers have single precision. `launch` has the functions that
+/// start and end a simulator.
+pub fn interface_41(launch: &[(&'static str, Function)]) -> Interface {
+    let own = [old::FUNCTIONS.concat(), launch.to_vec()].concat();
+    Interface::new(include_str!("symbols_41.tsv"), &own)
 }
 
-/// What a function of the simulator's own gets.
-pub(super) struct Call<'a> {
+/// What plugins call: the interface of CoppeliaSim 4.10.
+pub fn plugin_interface() -> &'static Interface {
+    static INTERFACE: Lazy<Interface> =
+        Lazy::new(|| Interface::new(include_str!("symbols_410.tsv"), &[]));
+    &INTERFACE
+}
+
+impl Interface {
+    /// The interface of a table of symbols. Its functions are in `own`, in this crate, or those of scripts.
+    pub fn new(table: &'static str, own: &[(&'static str, Function)]) -> Self {
+        let target = |row: &Symbol| {
+            let own = own.iter().find(|(name, _)| *name == row.function);
+            match own
+                .map(|own| own.1)
+                .or_else(|| functions::find(row.function))
+            {
+                Some(function) => Target::Own(function),
+                None if row.function.starts_with("sim") => Target::Api(row.function),
+                None => Target::Missing,
+            }
+        };
+        let rows = signature::rows(table).into_iter();
+        Self(
+            rows.map(|row| Bound {
+                target: target(&row),
+                row,
+            })
+            .collect(),
+        )
+    }
+
+    /// All symbols.
+    pub fn symbols(&self) -> impl Iterator<Item = &Symbol> {
+        self.0.iter().map(|bound| &bound.row)
+    }
+
+    /// Performs the call of symbol `number`; its result as C returns it.
+    pub(super) fn perform(&self, number: u32, values: &mut [Value]) -> i64 {
+        let Some(bound) = self.0.get(number as usize) else {
+            return -1;
+        };
+        let Some(frame) = current() else {
+            warn_of_thread(bound.row.symbol);
+            return bound.failure();
+        };
+        answer(&frame, bound, values).unwrap_or_else(|reason| {
+            frame.note_failure(&bound.row, reason);
+            bound.failure()
+        })
+    }
+
+    /// What a call of symbol `number` that failed returns.
+    pub(super) fn failure(&self, number: u32) -> i64 {
+        self.0.get(number as usize).map_or(-1, Bound::failure)
+    }
+
+    /// The symbols whose functions do not exist although their rows do not say so.
+    pub fn unbound(&self) -> impl Iterator<Item = &'static str> {
+        let is_unbound =
+            |bound: &&Bound| matches!(bound.target, Target::Missing) && !bound.row.is_missing();
+        self.0
+            .iter()
+            .filter(is_unbound)
+            .map(|bound| bound.row.symbol)
+    }
+}
+
+impl Bound {
+    fn failure(&self) -> i64 {
+        if self.row.returns_pointer() { 0 } else { -1 }
+    }
+}
+
+/// What a function of the interface gets.
+pub struct Call<'a> {
+    /// Who calls.
     pub frame: &'a Frame,
+    /// The parameters that it reads, and the counts of those that it fills.
     pub args: Vec<Data>,
     /// As C passed them.
-    pub values: &'a [Value],
-}
-
-/// Performs the call of symbol `number`; its result as C returns it.
-pub(super) fn perform(number: u32, values: &mut [Value]) -> i64 {
-    let Some(bound) = BOUND.get(number as usize) else {
-        return -1;
-    };
-    let Some(frame) = current() else {
-        warn_of_thread(bound.row.symbol);
-        return failure(number);
-    };
-    answer(&frame, bound, values).unwrap_or_else(|reason| {
-        frame.note_failure(&bound.row, reason);
-        failure(number)
-    })
-}
-
-/// What a call that failed returns.
-pub(super) fn failure(number: u32) -> i64 {
-    let is_pointer = BOUND
-        .get(number as usize)
-        .is_some_and(|bound| bound.row.returns_pointer());
-    if is_pointer { 0 } else { -1 }
+    pub(super) values: &'a [Value],
 }
 
 /// Calls from threads of the plugin's own, or after the simulator has ended.
@@ -152,6 +192,7 @@ fn argument(param: Param, value: &Value) -> Result<Data, String> {
         ('s', Size::One) => text(),
         ('t', _) if count == 0 => text(),
         ('s' | 't', _) => Data::Text(list::<u8>(value, count)?),
+        ('p', _) if value.address.is_null() => Data::Nil,
         ('p' | 'c', _) => Data::Int((value.address.number() as u64).cast_signed()),
         ('i' | 'l', Size::One) => Data::Int(value.integer),
         ('b' | 'B', Size::One) => Data::Bool(value.integer != 0),
@@ -198,7 +239,7 @@ fn write(
     let mut length = 0;
     let returned = match row.result {
         'v' | 'k' | 'q' => 1,
-        'd' => {
+        'd' | 'f' => {
             let number = results
                 .next()
                 .as_ref()
@@ -210,14 +251,15 @@ fn write(
                 .for_each(|last| last.number = number);
             1
         }
-        'S' | 'P' | 'I' | 'D' => frame.keep(row.result, results.next(), &mut length),
+        'S' | 'P' | 'I' | 'D' | 'F' => frame.keep(row.result, results.next(), &mut length),
+        'V' => frame.lend(row.symbol, results.next(), &mut length),
         _ => results.next().map_or(1, |first| integer(&first)),
     };
     let mut places = row
         .params
         .iter()
         .zip(&*values)
-        .filter(|(param, _)| param.is_out);
+        .filter(|(param, _)| param.is_out && param.ty != 'p');
     places.try_for_each(|(param, value)| fill(frame, *param, value, &mut results, &mut length))?;
     Ok(returned)
 }
@@ -234,7 +276,7 @@ fn fill(
         '#' => value
             .address
             .write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
-        'S' | 'I' | 'D' => {
+        'S' | 'I' | 'D' | 'F' => {
             let address = frame.keep(param.ty, results.next(), length);
             value.address.write(&[address]);
         }
@@ -288,13 +330,66 @@ pub(super) fn integer(data: &Data) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{BOUND, Target};
+    use super::{Interface, Param, Size, Symbol, interface_41, plugin_interface};
 
     #[test]
     fn every_row_names_a_function_or_says_that_it_is_missing() {
-        for bound in BOUND.iter() {
-            let is_missing = matches!(bound.target, Target::Missing);
-            assert_eq!(is_missing, bound.row.is_missing(), "{}", bound.row.symbol);
+        assert_eq!(plugin_interface().unbound().collect::<Vec<_>>(), [""; 0]);
+        // Programs that embed the library add those that start it.
+        let unbound: Vec<_> = of_41().unbound().collect();
+        let starts = |symbol: &&str| symbol.starts_with("simExt");
+        assert!(unbound.iter().all(starts), "{unbound:?}");
+    }
+
+    fn of_41() -> Interface {
+        interface_41(&[])
+    }
+
+    /// How parameters and results are passed: `i` int, `b` bool, `l` 64 bits, `f` float, `d` double, `p` an address, `v` nothing.
+    fn convention(symbol: &Symbol) -> (char, String) {
+        let result = match symbol.result {
+            _ if symbol.returns_pointer() => 'p',
+            kind @ ('v' | 'd' | 'f' | 'l') => kind,
+            _ => 'i',
+        };
+        (
+            result,
+            symbol
+                .params
+                .iter()
+                .flat_map(|param| passed(*param))
+                .collect(),
+        )
+    }
+
+    fn passed(param: Param) -> Vec<char> {
+        let count = (param.size == Size::Counted).then_some('i');
+        let value = match param.ty {
+            _ if param.is_pointer() => 'p',
+            kind @ ('l' | 'd' | 'f' | 'b') => kind,
+            _ => 'i',
+        };
+        std::iter::once(value).chain(count).collect()
+    }
+
+    /// `abi_41.tsv` has what the declarations of programs say.
+    #[test]
+    fn programs_for_41_find_every_function_with_the_parameters_that_they_pass() {
+        let interface = of_41();
+        let mut symbols = interface.symbols();
+        for line in include_str!("abi_41.tsv").lines() {
+            let mut columns = line.split('\t');
+            let mut column = || columns.next().unwrap_or_default();
+            let (name, result, params) = (column(), column(), column());
+            let symbol = symbols.next().expect("as many symbols as declarations");
+            assert_eq!(symbol.symbol, name);
+            let (own_result, own_params) = convention(symbol);
+            let own_result = if result == "b" { 'b' } else { own_result };
+            assert_eq!(own_result.to_string(), result, "the result of {name}");
+            if !symbol.is_missing() {
+                assert_eq!(own_params, params, "the parameters of {name}");
+            }
         }
+        assert!(symbols.next().is_none(), "more symbols than declarations");
     }
 }

@@ -2,12 +2,14 @@
 
 use super::dispatch::Call;
 use super::stacks::{as_list, insert, item_type, place, table_info, unfolded};
-use super::{Registered, Variable, scene_functions};
+use super::{registration, scene_functions};
 use scene::Data;
 use scene::numbers;
 
-pub(super) type Answer = Result<Vec<Data>, String>;
-pub(super) type Function = fn(&Call<'_>) -> Answer;
+/// The results of a function, or why it failed.
+pub type Answer = Result<Vec<Data>, String>;
+/// A function of the interface that scripts do not have, or not in this form.
+pub type Function = fn(&Call<'_>) -> Answer;
 
 /// Added to a script's handle: a call that fails is not logged.
 const SILENT: i64 = 0x0200_0000;
@@ -19,11 +21,6 @@ const FUNCTIONS: &[(&str, Function)] = &[
     ("error.take", take_error),
     ("buffer.create", create_buffer),
     ("buffer.release", release_buffer),
-    ("register.function", register_function),
-    ("register.variable", register_variable),
-    ("plugin.set_info", set_info),
-    ("plugin.info", info),
-    ("plugin.call_method", call_method),
     ("script.call", call_script),
     ("script.execute", execute),
     ("stack.create", |call| {
@@ -107,29 +104,41 @@ const FUNCTIONS: &[(&str, Function)] = &[
 
 /// The function of that name.
 pub(super) fn find(name: &str) -> Option<Function> {
-    let mut functions = FUNCTIONS.iter().chain(scene_functions::FUNCTIONS);
+    let mut functions = FUNCTIONS
+        .iter()
+        .chain(registration::FUNCTIONS)
+        .chain(scene_functions::FUNCTIONS);
     functions
         .find(|(known, _)| *known == name)
         .map(|&(_, function)| function)
 }
 
 impl Call<'_> {
-    fn stacks(&self) -> std::cell::RefMut<'_, super::stacks::Stacks> {
+    pub(super) fn stacks(&self) -> std::cell::RefMut<'_, super::stacks::Stacks> {
         self.frame.shared.stacks.borrow_mut()
     }
 
-    pub(super) fn arg(&self, place: usize) -> &Data {
+    /// A parameter; nil where there is none.
+    pub fn arg(&self, place: usize) -> &Data {
         self.args.get(place).unwrap_or(&Data::Nil)
     }
 
-    pub(super) fn int(&self, place: usize) -> Result<i64, String> {
+    /// A parameter that is an integer.
+    ///
+    /// # Errors
+    /// When it is something else.
+    pub fn int(&self, place: usize) -> Result<i64, String> {
         match self.arg(place) {
             Data::Int(value) => Ok(*value),
             _ => Err(format!("parameter {} is no integer", place + 1)),
         }
     }
 
-    pub(super) fn bytes(&self, place: usize) -> Result<&[u8], String> {
+    /// A parameter that is a text.
+    ///
+    /// # Errors
+    /// When it is NULL.
+    pub fn bytes(&self, place: usize) -> Result<&[u8], String> {
         match self.arg(place) {
             Data::Text(bytes) | Data::Buffer(bytes) => Ok(bytes),
             _ => Err(format!(
@@ -139,7 +148,11 @@ impl Call<'_> {
         }
     }
 
-    fn text(&self, place: usize) -> Result<String, String> {
+    /// The same as text.
+    ///
+    /// # Errors
+    /// When it is NULL.
+    pub fn text(&self, place: usize) -> Result<String, String> {
         self.bytes(place)
             .map(|bytes| String::from_utf8_lossy(bytes).into_owned())
     }
@@ -195,7 +208,7 @@ fn list_of(data: &Data, convert: impl Fn(&Data) -> Option<Data>) -> Option<Data>
 fn log(call: &Call<'_>) -> Answer {
     let origin = call
         .text(0)
-        .unwrap_or_else(|_| call.frame.plugin.name.clone());
+        .unwrap_or_else(|_| call.frame.origin().to_owned());
     call.frame.host.log(&origin, call.int(1)?, &call.text(2)?);
     Ok(Vec::new())
 }
@@ -228,74 +241,6 @@ fn release_buffer(call: &Call<'_>) -> Answer {
     }
 }
 
-fn register_function(call: &Call<'_>) -> Answer {
-    let name = call.text(0)?;
-    let callback = call
-        .values
-        .get(2)
-        .and_then(|value| value.address.callback())
-        .ok_or("NULL is no function")?;
-    let mut functions = call.frame.plugin.functions.borrow_mut();
-    let known = functions.iter().position(|function| function.name == name);
-    match known {
-        Some(place) => functions[place].callback = callback,
-        None => functions.push(Registered { name, callback }),
-    }
-    Ok(vec![Data::Bool(known.is_none())])
-}
-
-fn register_variable(call: &Call<'_>) -> Answer {
-    let stack = call.int(2)?;
-    let value = if stack > 0 {
-        let items = call.stacks().remove(stack)?;
-        Variable::Value(items.into_iter().next_back().unwrap_or(Data::Nil))
-    } else {
-        Variable::Expression(call.text(1)?)
-    };
-    call.frame
-        .plugin
-        .variables
-        .borrow_mut()
-        .push((call.text(0)?, value));
-    Ok(vec![Data::Int(1)])
-}
-
-fn set_info(call: &Call<'_>) -> Answer {
-    let value = if call.int(1)? < 2 {
-        call.arg(2)
-    } else {
-        call.arg(3)
-    };
-    call.frame
-        .plugin
-        .infos
-        .borrow_mut()
-        .insert(call.int(1)?, value.clone());
-    Ok(Vec::new())
-}
-
-fn info(call: &Call<'_>) -> Answer {
-    let name = call.text(0)?;
-    if name != call.frame.plugin.name {
-        return Err(format!("there is nothing known of the plugin {name}"));
-    }
-    match call.frame.plugin.infos.borrow().get(&call.int(1)?) {
-        Some(Data::Int(value)) => Ok(vec![Data::Nil, Data::Int(*value)]),
-        Some(text) => Ok(vec![text.clone()]),
-        None => Err("the plugin has set no such information".into()),
-    }
-}
-
-/// Plugins describe themselves by a method of the application; there are no others.
-fn call_method(call: &Call<'_>) -> Answer {
-    let name = call.text(1)?;
-    if name == "setPluginInfo" {
-        Ok(Vec::new())
-    } else {
-        Err(format!("the method {name} is not implemented in Swanilda"))
-    }
-}
-
 fn call_script(call: &Call<'_>) -> Answer {
     let (script, name, stack) = (call.int(0)?, call.text(1)?, call.int(2)?);
     let args = std::mem::take(call.stacks().get(stack)?);
@@ -314,7 +259,7 @@ fn call_script(call: &Call<'_>) -> Answer {
             if !is_silent {
                 call.frame
                     .host
-                    .log(&call.frame.plugin.name, super::current::ERRORS, &text);
+                    .log(call.frame.origin(), super::current::ERRORS, &text);
             }
             text
         })?;
@@ -387,7 +332,7 @@ fn debug(call: &Call<'_>) -> Answer {
     );
     call.frame
         .host
-        .log(&call.frame.plugin.name, super::current::INFOS, &text);
+        .log(call.frame.origin(), super::current::INFOS, &text);
     Ok(Vec::new())
 }
 

@@ -4,21 +4,26 @@
 //!
 //! A row has four columns: symbol, result, parameters, function.
 //! - Results: `v` nothing; `k` 1 if the call succeeded; `i` and `l` the first result as an integer, 1 without one; `r` the same, and the
-//!   parameters get the others; `q` whether there is a result; `d` a number; `S`, `P`, `I`, `D` bytes, memory, integers or numbers that
-//!   the plugin releases. Where the call fails: -1, -1.0 or NULL.
+//!   parameters get the others; `q` whether there is a result; `d` and `f` a number, `double` or `float`; `S`, `P`, `I`, `D`, `F` bytes,
+//!   memory, integers, numbers or floats that the caller releases; `V` memory that the caller does not release, valid until the next
+//!   call of the function. Where the call fails: -1, -1.0 or NULL.
 //! - Parameters: `i` int, `l` long long, `d` double, `b` bool, `B` an int that means a bool, `s` text (`t#`: also where its length
-//!   is 0), `p` an address, `c` a callback. `d3`
+//!   is 0), `p` an address (`>p`: the function writes there), `c` a callback. `d3`
 //!   points to three numbers, `d#` to as many as the next parameter says; `u`, `f` are bytes and floats. `>` before them: the host
-//!   writes there. `=`: it reads and writes. `>#`: the length of what is returned. `>S`, `>I`, `>D`: what is returned, by pointer.
+//!   writes there. `=`: it reads and writes. `>#`: the length of what is returned. `>S`, `>I`, `>D`, `>F`: what is returned, by pointer.
 //! - Functions: `sim.name` is called with the parameters, or with those that are listed after it, counted from 0; `-` is missing;
 //!   everything else is in `functions` or `scene_functions`.
 
 /// A symbol of the C interface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symbol {
+    /// Its name in C.
     pub symbol: &'static str,
+    /// The letter of the result.
     pub result: char,
+    /// The parameters in C, a list and its count as one.
     pub params: Vec<Param>,
+    /// The function behind it.
     pub function: &'static str,
     /// Which parameters the function gets; None for all.
     pub order: Option<Vec<usize>>,
@@ -33,6 +38,7 @@ pub struct Param {
     pub is_out: bool,
     /// The letter of the type; `#` for a length.
     pub ty: char,
+    /// How many values there are.
     pub size: Size,
 }
 
@@ -96,18 +102,20 @@ impl Symbol {
         match self.result {
             'v' => "void",
             'd' => "double",
+            'f' => "float",
             'l' => "long long int",
             'S' => "char*",
-            'P' => "void*",
+            'P' | 'V' => "void*",
             'I' => "int*",
             'D' => "double*",
+            'F' => "float*",
             _ => "int",
         }
     }
 
     /// Whether the result is an address.
     pub fn returns_pointer(&self) -> bool {
-        matches!(self.result, 'S' | 'P' | 'I' | 'D')
+        matches!(self.result, 'S' | 'P' | 'I' | 'D' | 'F' | 'V')
     }
 
     /// The parameters in C, with the names `a`, `b`, ... and `n` before the name for counts.
@@ -163,6 +171,7 @@ impl Param {
             'S' => "char*",
             'I' => "int*",
             'D' => "double*",
+            'F' => "float*",
             'p' => "void",
             _ => "int",
         }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{approximated::difference, modules};
-use c_interface::symbols;
+use c_interface::plugin_interface;
 use script::ReferenceModule;
 
 /// State of a module.
@@ -66,11 +66,12 @@ pub(super) fn text() -> String {
 
 /// Which functions native plugins can call.
 fn c_interface() -> String {
-    let missing: Vec<String> = symbols()
+    let missing: Vec<String> = plugin_interface()
+        .symbols()
         .filter(|row| row.is_missing())
         .map(|row| format!("`{}`", row.symbol))
         .collect();
-    let all = symbols().count();
+    let all = plugin_interface().symbols().count();
     format!(
         "\n## Functions of the C interface\n\n{} of the {all} functions that the two versions of CoppeliaSim's loaders for plugins look up \
          are here ([NATIVE_PLUGINS](NATIVE_PLUGINS.md)). These are missing; a call fails and is named in the log:\n\n{}\n",
@@ -91,7 +92,7 @@ fn row(module: ReferenceModule, state: State) -> String {
 
 #[cfg(test)]
 mod tests {
-    use c_interface::symbols;
+    use c_interface::plugin_interface;
     use script::Member;
 
     #[test]
@@ -103,7 +104,8 @@ mod tests {
                 Some(Member::Native(_) | Member::Lua { .. })
             )
         };
-        let called = symbols()
+        let called = plugin_interface()
+            .symbols()
             .map(|row| row.function)
             .filter(|function| function.starts_with("sim."));
         let missing: Vec<_> = called.filter(|function| !is_there(function)).collect();

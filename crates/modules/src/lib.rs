@@ -49,6 +49,7 @@ pub static ALL: &[&Module] = &[
     &modules_messaging::socket::CORE,
     &modules_messaging::socket::UNIX,
     &modules_messaging::socket::SSL,
+    &api::LIBRARY,
     &swanilda_test::MODULE,
 ];
 

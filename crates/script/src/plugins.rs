@@ -235,6 +235,11 @@ impl Sim {
         self.notify_plugins(Moment::Pass, [changes, 0, 0, 0]);
     }
 
+    /// The simulator as the host of a program's calls, in the name of the sandbox.
+    pub fn c_host(self: &Rc<Self>) -> Rc<dyn Host> {
+        self.plugin_host(None)
+    }
+
     fn plugin_host(self: &Rc<Self>, script: Option<&Rc<Script>>) -> Rc<dyn Host> {
         let script = script
             .cloned()

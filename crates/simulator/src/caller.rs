@@ -294,27 +294,27 @@ fn progress(mut results: Vec<Data>) -> Result<Progress, Error> {
     }
 }
 
-/// The reason alone: `17: in sim._getObject: ` before it is a place in the library.
 fn without_place(error: ApiError) -> ApiError {
-    let ApiError::Other(text) = &error else {
-        return error;
+    match error {
+        ApiError::Other(text) => ApiError::Other(reason(&text).to_owned()),
+        other => other,
+    }
+}
+
+/// The reason alone: `17: in sim._getObject: ` before it is a place in the library.
+pub(crate) fn reason(text: &str) -> &str {
+    let is_line = |line: &str| {
+        let number = line.rsplit(':').next();
+        number.is_some_and(|number| number.parse::<u32>().is_ok())
     };
-    let mut reason = text.as_str();
-    if let Some((line, rest)) = reason.split_once(": ")
-        && line
-            .rsplit(':')
-            .next()
-            .is_some_and(|line| line.parse::<u32>().is_ok())
-    {
-        reason = rest;
-    }
-    if let Some((_, rest)) = reason
+    let text = match text.split_once(": ") {
+        Some((line, rest)) if is_line(line) => rest,
+        _ => text,
+    };
+    let function = text
         .strip_prefix("in ")
-        .and_then(|rest| rest.split_once(": "))
-    {
-        reason = rest;
-    }
-    ApiError::Other(reason.to_owned())
+        .and_then(|rest| rest.split_once(": "));
+    function.map_or(text, |(_, rest)| rest)
 }
 
 #[cfg(test)]

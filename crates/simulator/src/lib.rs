@@ -1,6 +1,7 @@
 //! The embedding API: a simulator as a value.
 
 mod builder;
+mod c_host;
 mod caller;
 pub mod hash_file;
 #[cfg(test)]

@@ -85,6 +85,9 @@ pub(in crate::cli) struct Setup {
     /// Suppress status messages and the summary
     #[arg(long, short)]
     pub quiet: bool,
+    /// The text of an add-on of the program's own.
+    #[arg(skip)]
+    pub starter: Option<String>,
 }
 
 /// A script file: its name without extension, its text, and where it is.
@@ -230,6 +233,9 @@ impl Setup {
         }
         for (name, code) in self.ros.add_ons() {
             let _ = sim.add_script(ScriptKind::AddOn, name, code);
+        }
+        if let Some(code) = &self.starter {
+            let _ = sim.add_script(ScriptKind::AddOn, "starter", code.as_bytes());
         }
         match sources.scene {
             Some(Scene::File(file)) => self.open(sim, *file),

@@ -17,7 +17,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// Bits above the handle of a drawing object.
-const HANDLE_BITS: i64 = 0x000f_ffff;
+pub(crate) const HANDLE_BITS: i64 = 0x000f_ffff;
 const WHITE: [f64; 3] = [1.0; 3];
 
 /// Something to draw points, lines, triangles or small bodies with, seen by cameras and vision sensors. Without

@@ -7,6 +7,7 @@ pub(crate) mod globals;
 pub(crate) mod ik_groups;
 pub(crate) mod ik_postures;
 pub(crate) mod joint_shape;
+pub(crate) mod library;
 pub(crate) mod object_param;
 pub(crate) mod path_planning;
 pub(crate) mod paths;

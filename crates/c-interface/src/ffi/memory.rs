@@ -8,19 +8,22 @@ use super::library::{Callback, CallbackEntry};
 /// What C passes for one parameter. `build/plugin.rs` has the same struct in C.
 #[repr(C)]
 #[derive(Debug)]
-pub(crate) struct Value {
+pub struct Value {
+    /// An integer, a boolean, or how many values are behind the address.
     pub integer: i64,
+    /// A number.
     pub number: f64,
+    /// Where the values are.
     pub address: Address,
 }
 
 /// An address from C. Nothing else makes one, so that it leads to what the row of the called function says, or is null.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Address(*mut c_void);
+pub struct Address(*mut c_void);
 
 /// Numbers that are the same in C and in Rust, and for which all bits are valid.
-pub(crate) trait Plain: Copy + Default {}
+pub trait Plain: Copy + Default {}
 
 impl Plain for u8 {}
 impl Plain for i32 {}
@@ -28,6 +31,13 @@ impl Plain for i64 {}
 impl Plain for usize {}
 impl Plain for f32 {}
 impl Plain for f64 {}
+impl Plain for Address {}
+
+impl Default for Address {
+    fn default() -> Self {
+        Self(ptr::null_mut())
+    }
+}
 
 impl Value {
     /// The values of a call from C, for as long as it lasts.
@@ -41,6 +51,7 @@ impl Value {
 }
 
 impl Address {
+    /// Whether it is NULL.
     pub fn is_null(self) -> bool {
         self.0.is_null()
     }
@@ -96,7 +107,7 @@ impl Address {
     }
 
     /// A function of the plugin; None for a null pointer.
-    pub fn callback(self) -> Option<Callback> {
+    pub(crate) fn callback(self) -> Option<Callback> {
         if self.is_null() {
             return None;
         }

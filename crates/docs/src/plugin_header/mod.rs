@@ -18,7 +18,10 @@ pub(super) fn text() -> String {
     out.push_str("};\n\n");
     out.push_str("/* X(result, name, symbol, parameters) for every function. A parameter n... is the number of values of the one before it. */\n");
     out.push_str("#define SWANILDA_FUNCTIONS(X)");
-    for row in c_interface::symbols().filter(|row| !row.is_missing()) {
+    for row in c_interface::plugin_interface()
+        .symbols()
+        .filter(|row| !row.is_missing())
+    {
         // Without the suffix for double precision, as plugins call it.
         let name = row.symbol.trim_end_matches("_D");
         let _ = write!(

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use super::Cx;
 use crate::error::ApiResult;
-use io::EventLoop;
 use c_interface::Plugin;
+use io::EventLoop;
 use scene::Data;
 
 impl Cx<'_> {

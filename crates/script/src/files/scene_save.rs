@@ -6,10 +6,10 @@ use std::rc::Rc;
 use crate::error::{ApiError, ApiResult};
 use crate::host::Sim;
 use crate::sys_call::SysCall;
+use c_interface::Moment;
 use format::scene_file::{LoadedScript, SceneFile, save, write_whole};
 use format::ttt::File;
 use format::xml::{self, Variant};
-use c_interface::Moment;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError};
 

@@ -6,8 +6,8 @@ use crate::error::{ApiError, ApiResult};
 use crate::host::{Script, Sim};
 use crate::log::verbosity;
 use crate::sys_call::SysCall;
-use format::scene_file::{Loaded, LoadedScript, SceneFile};
 use c_interface::Moment;
+use format::scene_file::{Loaded, LoadedScript, SceneFile};
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 

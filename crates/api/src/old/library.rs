@@ -1,0 +1,61 @@
+//! The native part of `swanilda.library`: what programs that load the simulator as a library can do and scripts cannot.
+
+use api_macro::api;
+
+use crate::display::drawing::HANDLE_BITS;
+use crate::shapes::texture;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
+use scene::shape::options::MeshOptions;
+use scene::{Handle, SceneError};
+use script::{Bytes, Number};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![apply_texture, drawing_item_size];
+
+/// Puts an image on a shape, with a place in the image for each corner of its triangles.
+///
+/// @param shapeHandle a simple shape
+/// @param coordinates two for each index of the mesh
+/// @param pixels red, green, blue and perhaps opacity of each pixel, the top row first
+/// @param resolution width and height
+/// @param options 1: pixels are not interpolated, 2: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
+/// @return textureId of the image
+#[api("swanilda.library.applyTexture")]
+fn apply_texture(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    coordinates: Vec<f64>,
+    pixels: Bytes,
+    resolution: [f64; 2],
+    options: Number,
+) -> Result<i64> {
+    let corners = {
+        let scene = cx.scene();
+        let shape = scene.object(shape_handle)?.shape()?;
+        let [part] = &shape.parts[..] else {
+            return Err(SceneError::InvalidData.into());
+        };
+        part.mesh.flat_indices().len()
+    };
+    // The same options have other bits where a shape is made.
+    let kept = options.0 & !(1 | 2);
+    let options = MeshOptions::from_bits_retain(kept | (options.0 & (1 | 2)) << 2);
+    let mapping = texture::of_mesh(cx, options, &coordinates, corners, pixels.0, resolution)?;
+    let id = mapping.source.raw();
+    cx.scene_mut()
+        .set_shape_texture(shape_handle, Some(mapping))?;
+    Ok(id)
+}
+
+/// How many numbers an item of a drawing object has.
+///
+/// @param drawingObjectHandle the drawing object
+/// @return size
+#[api("swanilda.library.drawingItemSize")]
+fn drawing_item_size(cx: &Cx, drawing_object_handle: Number) -> Result<i64> {
+    let scene = cx.scene();
+    let drawing = scene
+        .drawings()
+        .get(drawing_object_handle.0 & HANDLE_BITS)?;
+    Ok(numbers::count(drawing.item_len()))
+}

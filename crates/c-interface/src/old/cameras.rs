@@ -1,0 +1,149 @@
+//! Images of vision sensors, lights, textures as bytes.
+
+use scene::Data;
+
+use super::pointers::{integers_of, packed};
+use crate::dispatch::Call;
+use crate::functions::{Answer, Function};
+
+/// Added to a sensor's handle: numbers come as bytes.
+const PACKED: i64 = 0x0040_0000;
+/// Added to a sensor's handle: one number a pixel.
+const GREYSCALE: i64 = 0x0040_0000;
+
+/// The functions by their names in the table of symbols.
+pub(super) const FUNCTIONS: &[(&str, Function)] = &[
+    ("camera.image", image),
+    ("camera.bytes", bytes),
+    ("camera.depth", depth),
+    ("camera.set_image", set_image),
+    ("camera.set_bytes", set_bytes),
+    ("camera.check_image", check_image),
+    ("light.get", light),
+    ("image.save", save_image),
+    ("texture.write", write_texture),
+];
+
+/// Red, green, blue of each pixel, 0 to 1, the lowest row first.
+fn image(call: &Call<'_>) -> Answer {
+    let levels: Vec<f32> = pixels(call)?
+        .iter()
+        .map(|&level| f32::from(level) / 255.0)
+        .collect();
+    Ok(vec![packed(&levels)])
+}
+
+/// Bytes, width and height.
+fn bytes(call: &Call<'_>) -> Answer {
+    let sensor = call.integer_at(0);
+    let function = "sim.getVisionSensorCharImage";
+    call.frame.host().call(function, &[Data::Int(sensor)])
+}
+
+fn pixels(call: &Call<'_>) -> Result<Vec<u8>, String> {
+    match bytes(call)?.into_iter().next() {
+        Some(Data::Text(pixels) | Data::Buffer(pixels)) => Ok(pixels),
+        _ => Err("there is no image".into()),
+    }
+}
+
+/// 0 at the near clipping plane to 1 at the far one, or metres where the handle says so; the lowest row first.
+fn depth(call: &Call<'_>) -> Answer {
+    let sensor = Data::Int(call.integer_at(0) | PACKED);
+    let mut results = call
+        .frame
+        .host()
+        .call("sim.getVisionSensorDepthBuffer", &[sensor])?;
+    match results.pop() {
+        Some(Data::Text(depths) | Data::Buffer(depths)) => Ok(vec![Data::Buffer(depths)]),
+        _ => Err("there are no depths".into()),
+    }
+}
+
+/// How many numbers an image of the sensor has, and the sensor as scripts name it.
+fn size(call: &Call<'_>) -> Result<usize, String> {
+    let sensor = call.integer_at(0);
+    let args = [Data::Int(sensor & !(PACKED | GREYSCALE))];
+    let results = call
+        .frame
+        .host()
+        .call("sim.getVisionSensorResolution", &args)?;
+    let sides = results.first().map(integers_of).unwrap_or_default();
+    let channels = if sensor & GREYSCALE == 0 { 3 } else { 1 };
+    let side = |place: usize| {
+        let side = sides.get(place).copied().unwrap_or_default();
+        usize::try_from(side).unwrap_or_default()
+    };
+    Ok(side(0).saturating_mul(side(1)).saturating_mul(channels))
+}
+
+fn set_image(call: &Call<'_>) -> Answer {
+    let image = call.floats_at(1, size(call)?)?;
+    let args = [Data::Int(call.integer_at(0)), image];
+    call.frame.host().call("sim.setVisionSensorImage", &args)
+}
+
+fn set_bytes(call: &Call<'_>) -> Answer {
+    let image = Data::Text(call.list_at(1, size(call)?)?);
+    let args = [Data::Int(call.integer_at(0)), image];
+    call.frame
+        .host()
+        .call("sim.setVisionSensorCharImage", &args)
+}
+
+/// The image or the depths of the sensor, with one entity only.
+fn check_image(call: &Call<'_>) -> Answer {
+    let args = [
+        Data::Int(call.integer_at(0)),
+        Data::Int(call.integer_at(1)),
+        Data::Bool(call.integer_at(2) != 0),
+    ];
+    call.frame.host().call("sim.checkVisionSensorEx", &args)
+}
+
+/// The state, and the colours without the one that is not used.
+fn light(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(call.integer_at(0))];
+    let mut results = call.frame.host().call("sim.getLightParameters", &args)?;
+    if results.len() > 1 {
+        results.remove(1);
+    }
+    Ok(results)
+}
+
+/// Parameters: pixels, width and height, options, file, quality. Option 1: pixels have an alpha channel.
+fn save_image(call: &Call<'_>) -> Answer {
+    let sides = call.list_at::<i32>(1, 2)?;
+    let side = |place: usize| usize::try_from(sides[place]).unwrap_or_default();
+    let channels = if call.integer_at(2) & 1 == 0 { 3 } else { 4 };
+    let count = side(0).saturating_mul(side(1)).saturating_mul(channels);
+    let args = [
+        Data::Buffer(call.list_at(0, count)?),
+        call.integers_at(1, 2)?,
+        Data::Int(call.integer_at(2)),
+        Data::Text(call.bytes(3)?.to_vec()),
+        Data::Int(call.integer_at(4)),
+    ];
+    call.frame.host().call("sim.saveImage", &args)
+}
+
+/// Parameters: texture, options, pixels, corner, size, interpolation. Without a size the pixels are those of the whole texture.
+fn write_texture(call: &Call<'_>) -> Answer {
+    let place = |place| call.integer_at(place);
+    let (width, height) = (call.count_at(5)?, call.count_at(6)?);
+    if width == 0 || height == 0 {
+        return Err("the size of the part is needed".into());
+    }
+    let count = width.saturating_mul(height).saturating_mul(3);
+    let args = [
+        Data::Int(place(0)),
+        Data::Int(place(1)),
+        Data::Text(call.list_at(2, count)?),
+        Data::Int(place(3)),
+        Data::Int(place(4)),
+        Data::Int(place(5)),
+        Data::Int(place(6)),
+        Data::Float(call.number_at(7)),
+    ];
+    call.frame.host().call("sim.writeTexture", &args)
+}

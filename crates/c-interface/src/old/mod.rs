@@ -1,0 +1,24 @@
+//! Functions of CoppeliaSim 4.1 whose parameters in C differ from those of scripts: the count of a list stands elsewhere, lists have
+//! the length that another parameter implies, or results are structures.
+
+mod cameras;
+mod engine;
+mod kinematics;
+mod meshes;
+mod pointers;
+mod scripts;
+mod settings;
+mod voxels;
+
+use super::functions::Function;
+
+/// The functions by their names in the table of symbols.
+pub(super) const FUNCTIONS: [&[(&str, Function)]; 7] = [
+    cameras::FUNCTIONS,
+    engine::FUNCTIONS,
+    kinematics::FUNCTIONS,
+    meshes::FUNCTIONS,
+    scripts::FUNCTIONS,
+    settings::FUNCTIONS,
+    voxels::FUNCTIONS,
+];

@@ -1,0 +1,102 @@
+//! Settings of the application and of the scene, the selection, what has no counterpart of its own in scripts.
+
+use scene::{Data, numbers};
+
+use super::pointers::integers_of;
+use crate::dispatch::Call;
+use crate::functions::{Answer, Function};
+
+/// The parameter of the time step, among those of `sim.setFloatParam`.
+const TIME_STEP: i64 = 1;
+/// Properties of a script: its text.
+const SCRIPT_TEXT: i64 = 10110;
+/// What a configuration of a tree begins with: a mark, and how many bytes follow.
+const CONFIGURATION: &[u8; 8] = b"swaconf1";
+
+/// The functions by their names in the table of symbols.
+pub(super) const FUNCTIONS: &[(&str, Function)] = &[
+    ("parameter.set_text", set_text),
+    ("simulation.set_time_step", set_time_step),
+    ("value.copy", |call| Ok(call.args.clone())),
+    ("selection.get", |call| {
+        call.write_at(0, &selection(call)?);
+        Ok(Vec::new())
+    }),
+    ("selection.size", |call| {
+        Ok(vec![Data::Int(numbers::count(selection(call)?.len()))])
+    }),
+    ("selection.last", |call| {
+        let last = selection(call)?.pop().unwrap_or(-1);
+        Ok(vec![Data::Int(last.into())])
+    }),
+    ("script.text", |call| {
+        let args = [Data::Int(call.integer_at(0)), Data::Int(SCRIPT_TEXT)];
+        call.frame.host().call("sim.getScriptStringParam", &args)
+    }),
+    ("tree.get", configuration),
+    ("tree.set", set_configuration),
+    ("drawing.add", add_drawing_item),
+];
+
+fn set_text(call: &Call<'_>) -> Answer {
+    let args = [
+        Data::Int(call.integer_at(0)),
+        Data::Text(call.bytes(1)?.to_vec()),
+    ];
+    call.frame.host().call("sim.setStringParam", &args)
+}
+
+fn set_time_step(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(TIME_STEP), Data::Float(call.number_at(0))];
+    call.frame.host().call("sim.setFloatParam", &args)
+}
+
+fn selection(call: &Call<'_>) -> Result<Vec<i32>, String> {
+    let results = call.frame.host().call("sim.getObjectSel", &[])?;
+    Ok(results.first().map(integers_of).unwrap_or_default())
+}
+
+/// The configuration of a tree with its length before it: in C nothing else says how long it is.
+fn configuration(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(call.integer_at(0))];
+    let results = call.frame.host().call("sim.getConfigurationTree", &args)?;
+    let Some(Data::Text(bytes) | Data::Buffer(bytes)) = results.into_iter().next() else {
+        return Err("there is no configuration".into());
+    };
+    let length = (bytes.len() as u64).to_ne_bytes();
+    Ok(vec![Data::Buffer(
+        [&CONFIGURATION[..], &length, &bytes].concat(),
+    )])
+}
+
+fn set_configuration(call: &Call<'_>) -> Answer {
+    let head = call.list_at::<u8>(0, 16)?;
+    let length = match head.split_first_chunk() {
+        Some((CONFIGURATION, length)) => length.try_into().map(u64::from_ne_bytes).ok(),
+        _ => None,
+    };
+    let length = length.and_then(|length| usize::try_from(length).ok());
+    let length = length.ok_or("this is no configuration of simGetConfigurationTree")?;
+    let mut bytes = call.list_at::<u8>(0, length.saturating_add(16))?;
+    let args = [Data::Buffer(bytes.split_off(16))];
+    call.frame.host().call("sim.setConfigurationTree", &args)
+}
+
+/// An item has as many numbers as the kind of drawing object says. NULL removes all.
+fn add_drawing_item(call: &Call<'_>) -> Answer {
+    let drawing = Data::Int(call.integer_at(0));
+    let mut args = vec![drawing.clone()];
+    if !call
+        .values
+        .get(1)
+        .is_none_or(|value| value.address.is_null())
+    {
+        let size = call
+            .frame
+            .host()
+            .call("swanilda.library.drawingItemSize", &[drawing])?;
+        let size = size.first().and_then(Data::as_f64).unwrap_or_default();
+        args.push(call.floats_at(1, numbers::index(size))?);
+    }
+    call.frame.host().call("sim.addDrawingObjectItem", &args)
+}
