@@ -9,6 +9,10 @@ from tree_sitter import Language, Parser
 
 PARSER = Parser(Language(tree_sitter_rust.language()))
 SWITCH = re.compile(rb'crate::fault\((\d+)u32\)')
+# That of an arm of a match which is left out.
+ARM = re.compile(rb' if !crate::fault\((\d+)u32\)')
+# The error of a match that has become incomplete.
+INCOMPLETE = 'E0004'
 # What the root of the crate gets: the switch, and the tests beside the crate, which then are a part of its own.
 HEAD = b'#![allow(warnings, clippy::all, missing_docs)]\n'
 FAULT = b'''
@@ -202,16 +206,19 @@ class Schemata:
         self.without.update(numbers)
 
     def wrong(self, errors):
-        """The faults that these errors of the compiler are about: those before them in the text."""
+        """The faults that these errors of the compiler are about: those before them in the text; of an incomplete match that of its last arm."""
         numbers = set()
         for error in errors:
-            spans = [span for span in error['spans'] if span['is_primary']]
-            numbers.update(number for span in spans if (number := self.before(span)) is not None)
+            if (error.get('code') or {}).get('code') == INCOMPLETE:
+                spans, switch = [span for help in error['children'] for span in help['spans']], ARM
+            else:
+                spans, switch = [span for span in error['spans'] if span['is_primary']], SWITCH
+            numbers.update(number for span in spans if (number := self.before(span, switch)) is not None)
         return numbers - self.without
 
-    def before(self, span):
+    def before(self, span, switch):
         path = Path(self.root, span['file_name'])
         if path not in self.sources:
             return None
-        found = [match for match in SWITCH.finditer(path.read_bytes()) if match.start() <= span['byte_start']]
+        found = [match for match in switch.finditer(path.read_bytes()) if match.start() <= span['byte_start']]
         return int(found[-1].group(1)) if found else None
