@@ -1,5 +1,12 @@
 //! Real scenes and models, loaded, saved and loaded again, are the same.
 
+mod everything;
+mod models;
+mod old_files;
+mod other_programs;
+mod surfaces;
+mod whole_scene;
+
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
@@ -202,7 +209,7 @@ fn words(text: &str) -> Vec<&str> {
     let mut words: Vec<&str> = Vec::new();
     for word in all {
         match words.last() {
-            Some(&"uid") => drop(words.pop()),
+            Some(&("uid" | "rank")) => drop(words.pop()),
             _ => words.push(word),
         }
     }

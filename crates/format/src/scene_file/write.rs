@@ -169,6 +169,30 @@ mod tests {
     }
 
     #[test]
+    fn a_file_appears_when_it_is_complete() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("film.bin");
+        let mut file = WholeFile::create(&path).unwrap();
+        assert_eq!(file.write(b"12345").unwrap(), 5);
+        assert_eq!(file.seek(SeekFrom::Start(1)).unwrap(), 1);
+        file.write_all(b"ab").unwrap();
+        file.flush().unwrap();
+        assert!(!path.exists());
+        file.finish().unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"1ab45");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn devices_are_written_to_and_stay() {
+        let (device, folder) = (Path::new("/dev/null"), tempfile::tempdir().unwrap());
+        assert!(is_special(device) && !is_special(folder.path()));
+        write_whole(device, b"nothing").unwrap();
+        WholeFile::create(device).unwrap().finish().unwrap();
+        assert!(is_special(device));
+    }
+
+    #[test]
     fn temporary_files_of_killed_writers_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| File::create(folder.path().join(name)).unwrap();

@@ -48,7 +48,7 @@ pub(super) fn connect(
         scene.modify(*handle, Field::Other, |new| {
             new.viewers = viewers(&object.common, map, &collections);
         })?;
-        for (tag, list) in lists(&object.common, map) {
+        for (tag, list) in lists(&object.common, map, &collections) {
             scene.set_references(*handle, References::Following, &tag, &list)?;
         }
         for (tag, list) in original_lists(&object.common, file, objects) {
@@ -212,7 +212,7 @@ fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<JointDependency> {
     };
     // The polynomial of MuJoCo begins with the offset; Vortex and Newton have factor and offset.
     pair(&joint.mujoco, 1, 23, 22)
-        .or_else(|| pair(&joint.vortex, 5, 49, 50))
+        .or_else(|| pair(&joint.vortex, 5, 47, 48))
         .or_else(|| pair(&joint.newton, 1, 0, 1))
 }
 
@@ -253,8 +253,12 @@ fn viewers(common: &Common, map: &HandleMap, collections: &CollectionMap) -> Vie
     }
 }
 
-fn lists(common: &Common, map: &HandleMap) -> ReferenceLists {
-    let new = |handle: &i32| map.get(handle).map_or(-1, |handle| handle.raw());
+/// Objects and collections; -1 stands for what is gone.
+fn lists(common: &Common, map: &HandleMap, collections: &CollectionMap) -> ReferenceLists {
+    let new = |handle: &i32| match handle {
+        0..=LAST_OBJECT => map.get(handle).map_or(-1, |object| object.raw()),
+        _ => collections.get(handle).copied().unwrap_or(-1),
+    };
     let untagged = common.references.iter().map(|Counted(all)| {
         (
             String::new(),
