@@ -1,6 +1,7 @@
 //! Queries of whole scenes against one object after the other, and perception that is kept against perception that is new.
 
 mod faces;
+mod queries;
 
 use geometry::PrimitiveKind;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};

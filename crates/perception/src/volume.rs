@@ -57,7 +57,8 @@ fn parts_in_piece(segment: [[f64; 3]; 2], piece: &Piece) -> Vec<[[f64; 3]; 2]> {
         if let Some([enter, leave]) = shares_inside(segment, hole) {
             let around = |[from, to]: [f64; 2]| [[from, to.min(enter)], [from.max(leave), to]];
             parts = parts.into_iter().flat_map(around).collect();
-            parts.retain(|[from, to]| from <= to);
+            // Where it ends within the hole, no point of it is left there.
+            parts.retain(|[from, to]| from < to);
         }
     }
     let [from, to] = segment;

@@ -137,4 +137,76 @@ mod tests {
             [[0.5, 0.5], [1.0, 0.5], [0.5, 0.75]]
         );
     }
+
+    #[test]
+    fn each_face_of_a_cube_has_its_right_side_to_the_right() {
+        // Seen from outside, the second corner lies to the right of the first and the third one above it.
+        let right = |corners: [[f64; 3]; 3]| {
+            let found = coordinates(&triangle(corners), &mapping(MappingMode::CUBE));
+            [
+                [found[1][0] - found[0][0], found[2][1] - found[0][1]],
+                [found[1][1] - found[0][1], found[2][0] - found[0][0]],
+            ]
+        };
+        let z = [0.0, 0.0, 1.0];
+        for (at, across, up) in [
+            ([3.0, 0.0, 0.0], [0.0, 1.0, 0.0], z),
+            ([-3.0, 0.0, 0.0], [0.0, -1.0, 0.0], z),
+            ([0.0, 3.0, 0.0], [-1.0, 0.0, 0.0], z),
+            ([0.0, -3.0, 0.0], [1.0, 0.0, 0.0], z),
+            ([0.0, 0.0, 3.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.0, -3.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ] {
+            // The normal is far from one metre long.
+            let beside = |way: [f64; 3]| [0, 1, 2].map(|i| at[i] + 2.0 * way[i]);
+            assert_eq!(
+                right([at, beside(across), beside(up)]),
+                [[1.0, 0.5], [0.0; 2]],
+                "{at:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_sphere_has_its_poles_on_the_z_axis() {
+        let ball = TextureMapping {
+            scale: [1.0; 2],
+            ..mapping(MappingMode::SPHERE)
+        };
+        let mesh = triangle([[2.0, 0.0, 0.0], [2.0, 0.0, 2.0], [0.0, 3.0, 0.0]]);
+        let found = coordinates(&mesh, &ball);
+        // A turn around z, and half a turn from pole to pole.
+        let expected = [[0.5, 0.5], [0.5, 0.75], [0.75, 0.5]];
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!(
+                (0..2).all(|i| (found[i] - expected[i]).abs() < 1e-6),
+                "{found:?}"
+            );
+        }
+        let pole = triangle([[0.0, 0.0, 5.0], [0.0, 0.0, -5.0], [1.0, 0.0, 0.0]]);
+        let ends = coordinates(&pole, &ball);
+        assert!(
+            (ends[0][1] - 1.0).abs() < 1e-6 && ends[1][1].abs() < 1e-6,
+            "{ends:?}"
+        );
+    }
+
+    #[test]
+    fn mappings_that_differ_in_a_number_have_other_keys() {
+        let plane = mapping(MappingMode::PLANE);
+        let wide = TextureMapping {
+            scale: [3.0, 4.0],
+            ..plane.clone()
+        };
+        let moved = TextureMapping {
+            frame: Pose::translation(0.0, 0.0, 1.0),
+            ..plane.clone()
+        };
+        let all = [plane.clone(), wide, moved, mapping(MappingMode::CUBE)];
+        for (at, one) in all.iter().enumerate() {
+            for (other_at, other) in all.iter().enumerate() {
+                assert_eq!(key(one) == key(other), at == other_at);
+            }
+        }
+    }
 }

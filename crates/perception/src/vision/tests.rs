@@ -1,5 +1,7 @@
 //! Pictures of small scenes, and what is kept between them.
 
+mod pictures;
+
 use geometry::PrimitiveKind;
 use rendering::Channels;
 

@@ -1,0 +1,639 @@
+//! Drawing objects, clouds, lights, fog and views: pictures whose pixels follow from the geometry.
+
+use super::*;
+use crate::vision::views::{Viewpoint, first_camera};
+use crate::vision::{Backdrop, views_background};
+use nalgebra::{Point3, Vector3};
+use scene::appearance::colour::Colour;
+use scene::appearance::environment::FogType;
+use scene::drawing::DrawingStyle;
+use scene::drawing::options::{DrawingFlags, DrawingKind};
+use scene::sensor::Camera;
+use scene::sensor::Entity;
+use scene::voxels::cloud_points::CloudPoints;
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use scene::{ModelFlags, ObjectFlags, Settings, SpecialFlags};
+
+/// Pixels along a side of the pictures, and the width of what is seen at a distance of one metre.
+const SIDE: usize = 64;
+const WIDTH: f64 = 2.0 * 0.546_302_489_843_790_5;
+
+fn studio() -> Studio {
+    let mut studio = Studio::new();
+    let size = |object: &mut scene::Object| {
+        let side = SIDE as i64;
+        object
+            .vision_sensor_mut()
+            .unwrap()
+            .view
+            .set_resolution([side, side]);
+    };
+    studio
+        .scene
+        .modify(studio.sensor, Field::Sensor, size)
+        .unwrap();
+    studio
+}
+
+fn style(kind: DrawingKind, flags: DrawingFlags) -> DrawingStyle {
+    let colour = Colour {
+        emission: GLOW,
+        ..Colour::new([0.0; 3])
+    };
+    DrawingStyle {
+        kind,
+        flags: flags | DrawingFlags::PAINT_TAG,
+        size: 0.5,
+        duplicate_tolerance: 0.0,
+        parent: None,
+        max_items: 10,
+        colour,
+    }
+}
+
+fn draw(studio: &mut Studio, style: DrawingStyle, numbers: &[f64]) {
+    let handle = studio.scene.add_drawing(style, None).unwrap();
+    studio.scene.add_drawing_items(handle, numbers).unwrap();
+}
+
+fn is_red(pixel: &[u8]) -> bool {
+    pixel[0] > 100 && pixel[1] < 50 && pixel[2] < 50
+}
+
+/// The share of the picture that is red, and how far away its middle is (m).
+fn shown(studio: &mut Studio) -> (f64, f64) {
+    let picture = studio.picture();
+    let red = picture
+        .colour
+        .chunks(3)
+        .filter(|pixel| is_red(pixel))
+        .count();
+    let middle = SIDE / 2 * SIDE + SIDE / 2;
+    let depth = 0.1 + 9.9 * f64::from(picture.depth[middle]);
+    (red as f64 / picture.depth.len() as f64, depth)
+}
+
+#[test]
+fn small_bodies_have_their_form_and_size() {
+    use DrawingKind::{CubePoints, DiscPoints, QuadPoints, SpherePoints, TrianglePoints};
+    let towards = [0.0, 0.0, 1.0, 0.0, 0.0, -1.0];
+    let corners = [-0.25, -0.25, 1.0, 0.25, -0.25, 1.0, 0.0, 0.25, 1.0];
+    let unit = WIDTH * WIDTH;
+    // Areas at one metre; the face of the cube and the ball are nearer.
+    for (kind, numbers, area, depth) in [
+        (QuadPoints, &towards[..], 0.25, 1.0),
+        (DiscPoints, &towards[..], 0.191, 1.0),
+        (TrianglePoints, &towards[..], 0.0812, 1.0),
+        (DrawingKind::Triangles, &corners[..], 0.125, 1.0),
+        (CubePoints, &towards[..3], 0.25 / 0.5625, 0.75),
+        (SpherePoints, &towards[..3], 0.2094, 0.75),
+    ] {
+        let mut studio = studio();
+        draw(&mut studio, style(kind, DrawingFlags::empty()), numbers);
+        let (share, found) = shown(&mut studio);
+        let expected = area / unit;
+        assert!(
+            (share - expected).abs() < 0.15 * expected,
+            "{kind:?}: {share} is not {expected}"
+        );
+        assert!(
+            (found - depth).abs() < 0.02,
+            "{kind:?}: {found} is not {depth}"
+        );
+    }
+}
+
+#[test]
+fn items_of_one_object_are_apart_and_may_have_a_back() {
+    let [left, right] = [-0.3, 0.3].map(|x| [x, 0.0, 1.0, 0.0, 0.0, -1.0]);
+    let away = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
+    let one = 0.25 / (WIDTH * WIDTH);
+    for (numbers, flags, quads) in [
+        ([left, right].concat(), DrawingFlags::empty(), 2.0),
+        (away.to_vec(), DrawingFlags::empty(), 1.0),
+        (away.to_vec(), DrawingFlags::BACK_FACE_CULLING, 0.0),
+    ] {
+        let mut studio = studio();
+        draw(&mut studio, style(DrawingKind::QuadPoints, flags), &numbers);
+        let share = shown(&mut studio).0;
+        assert!(
+            (share - quads * one).abs() < 0.15 * one,
+            "{share} is not {quads} quads"
+        );
+    }
+}
+
+#[test]
+fn bodies_that_face_the_camera_are_seen_from_everywhere() {
+    let mut studio = studio();
+    let tilted = Pose::new([0.0; 3].into(), [0.0, 1.0, 0.0].into());
+    studio.scene.set_world_pose(studio.sensor, tilted).unwrap();
+    let place = tilted * Point3::new(0.0, 0.0, 1.0);
+    let flags = DrawingFlags::FACING_CAMERA;
+    draw(
+        &mut studio,
+        style(DrawingKind::QuadPoints, flags),
+        place.coords.as_slice(),
+    );
+    let (share, depth) = shown(&mut studio);
+    let expected = 0.25 / (WIDTH * WIDTH);
+    assert!(
+        (share - expected).abs() < 0.15 * expected && (depth - 1.0).abs() < 0.01,
+        "{share} {depth}"
+    );
+}
+
+#[test]
+fn points_and_lines_have_a_width_in_pixels() {
+    let line = [-0.25, 0.0, 1.0, 0.25, 0.0, 1.0];
+    let length = 0.5 / WIDTH * SIDE as f64;
+    for (kind, numbers, pixels) in [
+        (DrawingKind::Points, &line[..], 2.0 * 16.0),
+        (DrawingKind::Lines, &line[..], 4.0 * length),
+        (DrawingKind::LineStrip, &line[..], 4.0 * length),
+    ] {
+        let mut studio = studio();
+        let style = DrawingStyle {
+            size: 4.0,
+            ..style(kind, DrawingFlags::empty())
+        };
+        draw(&mut studio, style, numbers);
+        let found = shown(&mut studio).0 * (SIDE * SIDE) as f64;
+        assert!(
+            (found - pixels).abs() < 0.3 * pixels,
+            "{kind:?}: {found} is not {pixels}"
+        );
+    }
+}
+
+#[test]
+fn drawings_go_with_their_parent() {
+    let mut studio = studio();
+    let parent = studio
+        .scene
+        .add("parent", Kind::Dummy(scene::object::dummy::Dummy::new(0.1)))
+        .unwrap();
+    studio
+        .scene
+        .set_world_pose(parent, Pose::translation(0.0, 0.0, 1.0))
+        .unwrap();
+    let flags = DrawingFlags::WITH_PARENT_VISIBILITY;
+    let with_parent = DrawingStyle {
+        parent: Some(parent),
+        ..style(DrawingKind::SpherePoints, flags)
+    };
+    // Scripts say it in the world, where the parent is now.
+    draw(&mut studio, with_parent, &[0.0, 0.0, 1.0]);
+    assert!((shown(&mut studio).1 - 0.75).abs() < 0.02);
+    studio
+        .scene
+        .set_world_pose(parent, Pose::translation(0.0, 0.0, 2.0))
+        .unwrap();
+    assert!((shown(&mut studio).1 - 1.75).abs() < 0.02);
+    let hide = |object: &mut scene::Object| object.layer = object.layer.hidden();
+    studio.scene.modify(parent, Field::Layer, hide).unwrap();
+    assert_eq!(shown(&mut studio).0, 0.0);
+}
+
+#[test]
+fn sensors_see_drawings_that_are_paint_and_views_all() {
+    let mut studio = studio();
+    let mut plain = style(DrawingKind::SpherePoints, DrawingFlags::empty());
+    plain.flags = DrawingFlags::empty();
+    draw(&mut studio, plain, &[0.0, 0.0, 1.0]);
+    assert_eq!(shown(&mut studio).0, 0.0);
+    let camera = studio
+        .scene
+        .add("camera", Kind::Camera(Box::default()))
+        .unwrap();
+    assert_eq!(first_camera(&studio.scene), Some(camera));
+    let picture = studio
+        .vision
+        .view(&studio.scene, Some(camera), Some([9, 9]), Channels::ALL)
+        .unwrap();
+    assert!(is_red(&picture.colour[120..123]) && picture.ids[40] == Picture::NOTHING);
+}
+
+#[test]
+fn items_have_colours_of_their_own() {
+    let mut studio = studio();
+    let corners = [-0.5, -0.5, 1.0, 0.5, -0.5, 1.0, 0.0, 0.5, 1.0];
+    let colours = [0.0, 0.5, 0.25, 0.0, 0.5, 0.5, 0.0, 0.5, 0.75];
+    let numbers = [&corners[..], &colours].concat();
+    let flags = DrawingFlags::VERTEX_COLOURS;
+    draw(&mut studio, style(DrawingKind::Triangles, flags), &numbers);
+    let picture = studio.picture();
+    let at = 3 * (SIDE / 2 * SIDE + SIDE / 2);
+    // The mean of those of the corners.
+    assert_eq!(picture.colour[at..at + 3], [0, 128, 128]);
+}
+
+#[test]
+fn translucent_items_let_light_through() {
+    let mut studio = studio();
+    studio.cube(2.0);
+    let flags = DrawingFlags::TRANSPARENT_50;
+    let colour = Colour {
+        emission: [0.0, 0.0, 1.0],
+        ..Colour::new([0.0; 3])
+    };
+    let style = DrawingStyle {
+        colour,
+        ..style(DrawingKind::QuadPoints, flags)
+    };
+    draw(&mut studio, style, &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0]);
+    let picture = studio.picture();
+    let at = 3 * (SIDE / 2 * SIDE + SIDE / 2);
+    let [red, green, blue] = [0, 1, 2].map(|i| picture.colour[at + i]);
+    assert!(
+        red.abs_diff(128) < 3 && green == 0 && blue.abs_diff(128) < 3,
+        "{red} {green} {blue}"
+    );
+}
+
+/// An empty cloud of which that part is shown.
+fn cloud(display_fraction: f64) -> PointCloud {
+    PointCloud {
+        max_cell_size: 0.5,
+        max_points_in_cell: 4,
+        point_size: 1,
+        uses_octree: true,
+        display_fraction,
+        random_colours: false,
+        points: CloudPoints::default(),
+    }
+}
+
+#[test]
+fn a_cloud_shows_a_part_of_its_points() {
+    let point = |at: usize| CloudPoint {
+        position: [0.04 * at as f64 - 0.3, 0.0, 1.0],
+        colour: [255, 0, 0],
+    };
+    for (fraction, shown_points) in [(1.0, 16), (0.5, 8), (0.25, 4), (0.0, 0), (7.0, 16)] {
+        let mut studio = studio();
+        studio
+            .scene
+            .modify_settings(|settings| settings.environment.ambient_light = [1.0; 3]);
+        let mut cloud = cloud(fraction);
+        cloud.insert((0..16).map(point), 0.0);
+        let cloud = Kind::PointCloud(Box::new(cloud));
+        let cloud = studio.scene.add("cloud", cloud).unwrap();
+        let picture = studio.picture();
+        let seen = picture.ids.iter().filter(|id| **id == cloud.0).count();
+        assert_eq!(seen, shown_points, "{fraction}");
+    }
+}
+
+#[test]
+fn an_octree_may_be_shown_as_points() {
+    let mut studio = studio();
+    let mut tree = OcTree::new(0.1, 4.0);
+    tree.shows_points = true;
+    tree.insert(
+        [0.05, 0.05, 1.05],
+        Voxel {
+            colour: [255, 0, 0],
+            tag: 0,
+        },
+    );
+    let tree = studio
+        .scene
+        .add("octree", Kind::OcTree(Box::new(tree)))
+        .unwrap();
+    let picture = studio.picture();
+    assert_eq!(picture.ids.iter().filter(|id| **id == tree.0).count(), 16);
+}
+
+/// The middle and a corner of the picture of a white wall at 2 m under one light at the sensor.
+fn lit(change: impl FnOnce(&mut Light)) -> [u8; 2] {
+    let mut studio = studio();
+    let mut wall =
+        Shape::primitive(PrimitiveKind::Cuboid, [8.0, 8.0, 0.1], Default::default()).unwrap();
+    let colour = &mut wall.parts[0].appearance.colour;
+    (colour.ambient_diffuse, colour.specular) = ([1.0; 3], [0.0; 3]);
+    let wall = studio
+        .scene
+        .add("wall", Kind::Shape(Box::new(wall)))
+        .unwrap();
+    studio
+        .scene
+        .set_world_pose(wall, Pose::translation(0.0, 0.0, 2.05))
+        .unwrap();
+    studio
+        .scene
+        .modify_settings(|settings| settings.environment.ambient_light = [0.0; 3]);
+    let mut light = Light::new(LightType::Directional);
+    (light.attenuation, light.spot_exponent) = ([1.0, 0.0, 0.0], 0);
+    change(&mut light);
+    studio
+        .scene
+        .add("light", Kind::Light(Box::new(light)))
+        .unwrap();
+    let picture = studio.picture();
+    [SIDE / 2 * SIDE + SIDE / 2, 0].map(|at| picture.colour[3 * at])
+}
+
+#[test]
+fn lights_of_all_types() {
+    assert_eq!(lit(|_| ()), [128, 128]);
+    assert_eq!(lit(|light| light.enabled = false), [0, 0]);
+    let spot = lit(|light| (light.light_type, light.spot_cutoff) = (LightType::Spot, 0.25));
+    assert!(spot[0] > 120 && spot[1] == 0, "{spot:?}");
+    let omni = lit(|light| light.light_type = LightType::Omnidirectional);
+    assert!(
+        omni[0] > 120 && (50..omni[0]).contains(&omni[1]),
+        "{omni:?}"
+    );
+    // Half at the distance of two metres.
+    let faded = lit(|light| {
+        (light.light_type, light.attenuation) = (LightType::Omnidirectional, [0.0, 1.0, 0.0]);
+    });
+    assert!(faded[0].abs_diff(64) < 3, "{faded:?}");
+}
+
+fn settings(studio: &mut Studio, change: impl FnOnce(&mut Settings)) {
+    studio.scene.modify_settings(change);
+}
+
+#[test]
+fn fog_grows_with_distance() {
+    for (fog_type, start, end, density, share) in [
+        (FogType::LINEAR, 0.0, Some(3.5), 0.0, 0.5),
+        (FogType::LINEAR, 0.0, None, 0.0, 0.35),
+        (FogType::EXPONENTIAL, 0.0, None, 0.5, 0.583),
+        (FogType::EXPONENTIAL_SQUARED, 0.0, None, 0.5, 0.535),
+    ] {
+        let mut studio = Studio::new();
+        studio.cube(2.0);
+        settings(&mut studio, |settings| {
+            let fog = &mut settings.environment.fog;
+            (fog.enabled, fog.fog_type, fog.start) = (true, fog_type, start);
+            (fog.end, fog.density, fog.colour) = (end, density, Some([0.0, 0.0, 1.0]));
+        });
+        let [red, _, blue] = studio.middle().0.map(|part| f64::from(part) / 255.0);
+        assert!(
+            (blue - share).abs() < 0.01 && (red - 1.0 + share).abs() < 0.01,
+            "{fog_type:?} {red} {blue}"
+        );
+        let ignore =
+            |object: &mut scene::Object| object.vision_sensor_mut().unwrap().ignore_fog = true;
+        studio
+            .scene
+            .modify(studio.sensor, Field::Sensor, ignore)
+            .unwrap();
+        assert_eq!(studio.middle().0, [255, 0, 0]);
+    }
+}
+
+#[test]
+fn backgrounds_of_sensors_and_views() {
+    let mut studio = Studio::new();
+    let own = |object: &mut scene::Object| {
+        object.vision_sensor_mut().unwrap().background = [0.2, 0.4, 0.6];
+    };
+    studio
+        .scene
+        .modify(studio.sensor, Field::Sensor, own)
+        .unwrap();
+    assert_eq!(studio.middle().0, [51, 102, 153]);
+    let of_scene = |object: &mut scene::Object| {
+        object
+            .vision_sensor_mut()
+            .unwrap()
+            .background_from_environment = true;
+    };
+    studio
+        .scene
+        .modify(studio.sensor, Field::Sensor, of_scene)
+        .unwrap();
+    settings(&mut studio, |settings| {
+        settings.environment.fog.colour = Some([0.6, 0.2, 0.4]);
+    });
+    assert_eq!(studio.middle().0, [153, 51, 102]);
+    let colours = [[0.5, 0.25, 0.75], [0.0, 1.0, 0.5]];
+    settings(&mut studio, |settings| {
+        settings.environment.background = Some(colours);
+    });
+    assert_eq!(views_background(&studio.scene), colours);
+    let shown = Backdrop::Views.colours(&studio.scene);
+    assert_eq!([shown.top, shown.bottom], colours);
+}
+
+#[test]
+fn auxiliary_colours_need_no_light() {
+    let mut studio = Studio::new();
+    let cube = studio.cube(2.0);
+    let paint = |object: &mut scene::Object| {
+        object.shape_mut().unwrap().parts[0]
+            .appearance
+            .colour
+            .auxiliary = [0.2, 0.4, 0.6];
+    };
+    studio.scene.modify(cube, Field::Appearance, paint).unwrap();
+    let mode = |object: &mut scene::Object| {
+        object.vision_sensor_mut().unwrap().render_mode = RenderMode::AUXILIARY;
+    };
+    studio
+        .scene
+        .modify(studio.sensor, Field::Sensor, mode)
+        .unwrap();
+    assert_eq!(studio.middle().0, [51, 102, 153]);
+}
+
+/// Where a view without a camera is from, and what it looks along.
+fn overview(scene: &Scene) -> (Vector3<f64>, Vector3<f64>, f64) {
+    let shot = Viewpoint::new(scene, None)
+        .unwrap()
+        .shot(scene, [64, 32])
+        .unwrap();
+    assert_eq!(shot.view.resolution, [64, 32]);
+    let ahead = shot.pose.rotation * Vector3::z();
+    (shot.pose.translation.vector, ahead, shot.view.clipping[1])
+}
+
+#[track_caller]
+fn looks_at(scene: &Scene, middle: [f64; 3], radius: f64) {
+    let (eye, ahead, far) = overview(scene);
+    let direction = Vector3::new(-1.0, -1.5, 1.2).normalize();
+    // The ball fills the angle of 60 degrees, and a tenth is left free.
+    let expected = Vector3::from(middle) + direction * (1.1 * radius / 0.5);
+    assert!((eye - expected).norm() < 1e-9, "{eye} is not {expected}");
+    assert!((ahead + direction).norm() < 1e-9);
+    assert!((far - (4.0 * eye.norm()).max(30.0)).abs() < 1e-9);
+}
+
+#[test]
+fn a_view_without_a_camera_shows_a_ball_around_all() {
+    let mut studio = Studio::new();
+    looks_at(&studio.scene, [0.0; 3], 1.0);
+    let cube = studio.cube(2.0);
+    looks_at(&studio.scene, [0.0, 0.0, 2.0], 0.25 * 3_f64.sqrt());
+    let far = studio.cube(40.0);
+    looks_at(
+        &studio.scene,
+        [0.0, 0.0, 21.0],
+        (38.5 * 38.5 + 0.5_f64).sqrt() / 2.0,
+    );
+    let skip =
+        |object: &mut scene::Object| object.object_property |= ObjectFlags::IGNORE_VIEW_FITTING;
+    studio
+        .scene
+        .modify(far, Field::ObjectProperty, skip)
+        .unwrap();
+    looks_at(&studio.scene, [0.0, 0.0, 2.0], 0.25 * 3_f64.sqrt());
+    studio.scene.remove(&[cube]).unwrap();
+    let mut tree = OcTree::new(1.0, 1.0);
+    for x in [0.5, 4.5] {
+        tree.insert(
+            [x, 0.5, 0.5],
+            Voxel {
+                colour: [0; 3],
+                tag: 0,
+            },
+        );
+    }
+    studio
+        .scene
+        .add("tree", Kind::OcTree(Box::new(tree)))
+        .unwrap();
+    looks_at(&studio.scene, [2.5, 0.5, 0.5], 2.0);
+    let everything: Vec<Handle> = studio.scene.objects().map(scene::Object::handle).collect();
+    studio.scene.remove(&everything).unwrap();
+    let mut cloud = cloud(1.0);
+    let point = |x: f64| CloudPoint {
+        position: [x, 2.0, 3.0],
+        colour: [0; 3],
+    };
+    cloud.insert([-1.0, 5.0].map(point).into_iter(), 0.0);
+    let cloud = Kind::PointCloud(Box::new(cloud));
+    studio.scene.add("cloud", cloud).unwrap();
+    looks_at(&studio.scene, [2.0, 2.0, 3.0], 3.0);
+}
+
+#[test]
+fn viewpoints_are_objects_or_places() {
+    let mut studio = Studio::new();
+    let camera = studio
+        .scene
+        .add("camera", Kind::Camera(Box::<Camera>::default()))
+        .unwrap();
+    let scene = &mut studio.scene;
+    let of_sensor = Viewpoint::new(scene, Some(studio.sensor)).unwrap();
+    assert_eq!(of_sensor.resolution(scene), Some([9, 9]));
+    let of_camera = Viewpoint::new(scene, Some(camera)).unwrap();
+    assert_eq!(of_camera.resolution(scene), None);
+    let place = Viewpoint::new(scene, None).unwrap();
+    assert_eq!(place.resolution(scene), None);
+    let moved = Pose::translation(1.0, 2.0, 3.0);
+    scene.set_world_pose(camera, moved).unwrap();
+    assert_eq!(of_camera.shot(scene, [4, 4]).unwrap().pose, moved);
+    scene.remove(&[camera]).unwrap();
+    assert!(of_camera.shot(scene, [4, 4]).is_err() && place.shot(scene, [4, 4]).is_ok());
+    let cube = studio.cube(1.0);
+    assert!(Viewpoint::new(&studio.scene, Some(cube)).is_err());
+}
+
+#[test]
+fn sensors_have_the_channels_they_do_not_ignore() {
+    for (image, depth, by_handle) in [
+        (true, true, false),
+        (false, true, false),
+        (true, false, false),
+        (false, false, true),
+        (true, true, true),
+    ] {
+        let mut studio = Studio::new();
+        let cube = studio.cube(2.0);
+        let change = |object: &mut scene::Object| {
+            let sensor = object.vision_sensor_mut().unwrap();
+            (sensor.ignore_image, sensor.ignore_depth) = (!image, !depth);
+            if by_handle {
+                sensor.render_mode = RenderMode::HANDLES;
+            }
+        };
+        studio
+            .scene
+            .modify(studio.sensor, Field::Sensor, change)
+            .unwrap();
+        let picture = studio
+            .vision
+            .sensor_picture(&studio.scene, studio.sensor, None)
+            .unwrap();
+        assert_eq!(
+            picture.image.as_ref().map(Vec::len),
+            image.then_some(3 * 81)
+        );
+        assert_eq!(picture.depth.as_ref().map(Vec::len), depth.then_some(81));
+        assert_eq!(picture.seen, by_handle.then(|| vec![cube]));
+        if let Some(image) = picture.image.filter(|_| by_handle) {
+            assert_eq!(image[..3], [255; 3], "nothing is in the corner");
+        }
+    }
+}
+
+#[test]
+fn sensors_see_what_is_renderable_unless_one_object_is_named() {
+    let mut studio = Studio::new();
+    let cube = studio.cube(2.0);
+    let hide = |object: &mut scene::Object| object.special_property = SpecialFlags::COLLIDABLE;
+    studio
+        .scene
+        .modify(cube, Field::SpecialProperty, hide)
+        .unwrap();
+    assert_eq!(studio.middle().2, None);
+    let watch = |studio: &mut Studio, entity: Entity| {
+        let change =
+            |object: &mut scene::Object| object.vision_sensor_mut().unwrap().entity = entity;
+        studio
+            .scene
+            .modify(studio.sensor, Field::Sensor, change)
+            .unwrap();
+        studio.middle().2
+    };
+    assert_eq!(watch(&mut studio, cube.into()), Some(cube));
+    for overrides in [true, false] {
+        let collection = studio.scene.collections_mut().add(overrides, None);
+        let item = CollectionItem::new(Members::Single(cube), ItemOptions::empty());
+        studio
+            .scene
+            .collections_mut()
+            .get_mut(collection)
+            .unwrap()
+            .items
+            .push(item);
+        let seen = watch(&mut studio, Entity::from_raw(collection));
+        assert_eq!(seen.is_some(), overrides);
+    }
+    let show = |object: &mut scene::Object| {
+        object.special_property = SpecialFlags::RENDERABLE;
+        object.set_model_property(ModelFlags::NOT_RENDERABLE);
+    };
+    studio
+        .scene
+        .modify(cube, Field::SpecialProperty, show)
+        .unwrap();
+    assert_eq!(watch(&mut studio, Entity::ALL), None);
+}
+
+#[test]
+fn surfaces_may_be_seen_from_one_side_only_and_let_light_through() {
+    let mut studio = Studio::new();
+    // The sensor is within the cube: it sees the far side from within.
+    let cube = studio.cube(0.0);
+    let near = |studio: &mut Studio, culling: bool, opacity: f32| {
+        let change = |object: &mut scene::Object| {
+            let looks = &mut object.shape_mut().unwrap().parts[0].appearance;
+            (looks.culling, looks.colour.opacity) = (culling, opacity);
+        };
+        studio
+            .scene
+            .modify(cube, Field::Appearance, change)
+            .unwrap();
+        studio.middle()
+    };
+    assert_eq!(near(&mut studio, false, 1.0).2, Some(cube));
+    assert_eq!(near(&mut studio, true, 1.0).2, None);
+    let half = near(&mut studio, false, 0.5).0;
+    assert!(half[0].abs_diff(128) < 3, "{half:?}");
+}
