@@ -1,6 +1,7 @@
 //! Queries of whole scenes against one object after the other, and perception that is kept against perception that is new.
 
 mod faces;
+mod pairs;
 mod queries;
 
 use geometry::PrimitiveKind;

@@ -1,6 +1,7 @@
 //! Pictures of small scenes, and what is kept between them.
 
 mod pictures;
+mod views;
 
 use geometry::PrimitiveKind;
 use rendering::Channels;
