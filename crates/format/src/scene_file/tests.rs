@@ -4,6 +4,7 @@ mod everything;
 mod models;
 mod old_files;
 mod other_programs;
+mod recognised;
 mod surfaces;
 mod whole_scene;
 
