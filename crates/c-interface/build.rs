@@ -70,11 +70,22 @@ fn compile_for_programs(is_supported: bool, out: &Path) {
         &folder,
         "-lswanilda_library",
     ];
-    let library = |interface: &str, table: &'static str| {
-        format!("#define INTERFACE {interface}{LINKED}{}", functions(table))
-    };
-    let for_41 = library("0", include_str!("src/symbols_41.tsv"));
+    let for_41 = linked("INTERFACE_41", include_str!("src/symbols_41.tsv"));
     compile(is_supported, out, "libcoppeliaSim_41.so", &for_41, &link);
+}
+
+/// The functions of a table, which call the simulator's library by the number of the table: libraries of different builds notice that
+/// they do not belong together. The crate knows the number by `name`.
+fn linked(name: &str, table: &'static str) -> String {
+    let number = hash(table);
+    println!("cargo:rustc-env={name}={number}");
+    format!("#define INTERFACE {number}u{LINKED}{}", functions(table))
+}
+
+/// FNV-1a, 32 bits.
+fn hash(text: &str) -> u32 {
+    let step = |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    text.bytes().fold(0x811c_9dc5, step)
 }
 
 #[allow(

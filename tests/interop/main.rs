@@ -12,6 +12,7 @@ mod capture;
 mod debugger;
 mod foreign;
 mod gltf;
+mod library;
 mod motion;
 mod package;
 mod recordings;

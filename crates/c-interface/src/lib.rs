@@ -35,6 +35,12 @@ pub use signature::{Param, Size, Symbol};
 /// simulator's library beside it.
 pub const LIBRARY_41: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/libcoppeliaSim_41.so"));
 
+/// The number by which that library calls the interface.
+pub const INTERFACE_41: u32 = match u32::from_str_radix(env!("INTERFACE_41"), 10) {
+    Ok(number) => number,
+    Err(_) => panic!("the build script has written a number"),
+};
+
 use scene::Data;
 
 /// What plugins need of the simulator, in the name of the script on whose behalf they run.

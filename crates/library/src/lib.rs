@@ -9,18 +9,17 @@ mod launch;
 mod session;
 mod unattached;
 
-use c_interface::{Interface, Value, interface_41};
+use std::sync::Once;
+
+use c_interface::{INTERFACE_41, Interface, Value, interface_41};
 use heap::Lazy;
 
 #[global_allocator]
 static ALLOCATOR: heap::Allocator = heap::Allocator;
 
-/// CoppeliaSim 4.1, as the generated library numbers it.
-const VERSION_41: u32 = 0;
+static OF_41: Lazy<Interface> = Lazy::new(|| interface_41(launch::FUNCTIONS));
 
-static INTERFACE_41: Lazy<Interface> = Lazy::new(|| interface_41(launch::FUNCTIONS));
-
-/// A call of a function: the version of the interface, the row in its table of symbols, the parameters and their number. The result is
+/// A call of a function: the number of the interface, the row in its table of symbols, the parameters and their number. The result is
 /// what C returns, but numbers that are no integers: those are the last value.
 ///
 /// # Safety
@@ -28,15 +27,26 @@ static INTERFACE_41: Lazy<Interface> = Lazy::new(|| interface_41(launch::FUNCTIO
 #[expect(unsafe_code, reason = "an edge to C")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swanilda_library_call(
-    version: u32,
+    interface: u32,
     row: u32,
     values: *mut Value,
     count: u32,
 ) -> i64 {
     unattached::attach_thread();
-    if version != VERSION_41 {
-        return -1;
+    if interface != INTERFACE_41 {
+        return foreign();
     }
     // SAFETY: the generated library has made the values for this row.
-    unsafe { INTERFACE_41.call_from_c(row, values, count) }
+    unsafe { OF_41.call_from_c(row, values, count) }
+}
+
+/// A call by a library of another build, whose rows may be others.
+fn foreign() -> i64 {
+    static SAID: Once = Once::new();
+    SAID.call_once(|| {
+        eprintln!(
+            "swanilda: libcoppeliaSim.so and libswanilda_library.so are of different builds: write the folder again with `swanilda library`."
+        );
+    });
+    -1
 }

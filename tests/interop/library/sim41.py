@@ -33,7 +33,16 @@ def declarations(table):
 
 
 def compiled(table, folder):
-    """The extension, linked with the library: Python loads it with all symbols resolved."""
+    """The extension, linked with the library and compiled once: Python loads it with all symbols resolved."""
+    files = list(pathlib.Path(folder).glob("_sim41*.so"))
+    path = files[0] if files else compile_extension(table, folder)
+    spec = importlib.util.spec_from_file_location("_sim41", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.ffi, module.lib
+
+
+def compile_extension(table, folder):
     import cffi
 
     ffi = cffi.FFI()
@@ -46,11 +55,7 @@ def compiled(table, folder):
         library_dirs=[ROOT],
         extra_link_args=[f"-Wl,-rpath,{ROOT}"],
     )
-    path = ffi.compile(tmpdir=str(folder))
-    spec = importlib.util.spec_from_file_location("_sim41", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.ffi, module.lib
+    return ffi.compile(tmpdir=str(folder))
 
 
 class Failed(Exception):

@@ -29,7 +29,9 @@ fn call_with_tables(call: &Call<'_>) -> Answer {
         Data::Array(texts.into_iter().map(Data::Text).collect()),
         Data::Text(call.list_at(8, counts[3])?),
     ];
-    let results = call.frame.host().call("sim.callScriptFunction", &args)?;
+    let results = call.frame.host().call("sim._callScriptFunction", &args);
+    let results =
+        results.map_err(|reason| format!("{}: {reason}", call.text(1).unwrap_or_default()))?;
     let mut results = results.into_iter();
     write_list(call, 10, 'I', results.next());
     write_list(call, 12, 'F', results.next());

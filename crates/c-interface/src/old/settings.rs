@@ -33,6 +33,7 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
         let args = [Data::Int(call.integer_at(0)), Data::Int(SCRIPT_TEXT)];
         call.frame.host().call("sim.getScriptStringParam", &args)
     }),
+    ("joint.max_force", max_force),
     ("tree.get", configuration),
     ("tree.set", set_configuration),
     ("drawing.add", add_drawing_item),
@@ -54,6 +55,14 @@ fn set_time_step(call: &Call<'_>) -> Answer {
 fn selection(call: &Call<'_>) -> Result<Vec<i32>, String> {
     let results = call.frame.host().call("sim.getObjectSel", &[])?;
     Ok(results.first().map(integers_of).unwrap_or_default())
+}
+
+/// The force of a motor without the sign that it has since 4.3.
+fn max_force(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(call.integer_at(0))];
+    let results = call.frame.host().call("sim.getJointMaxForce", &args)?;
+    let force = results.first().and_then(Data::as_f64).unwrap_or_default();
+    Ok(vec![Data::Float(force.abs())])
 }
 
 /// The configuration of a tree with its length before it: in C nothing else says how long it is.
