@@ -8,7 +8,7 @@ SWANILDA names another binary. Each number is the best of ROUNDS processes, whic
 - *first*, *second*: from the start of the simulation until its second step has ended, in a process whose cache folder is empty, and in one that finds the convex pieces
   of the meshes there. *again*: the second start in one process. MuJoCo: to compile the file, which it does not keep, and two steps.
 - *rest*, *moves*: a step of 50 ms, of ten sub-steps of 5 ms, with motors that hold the joints, and that move them by 0.8 rad at up to 2 rad/s.
-- *restart*: to start, make a step and stop; in MuJoCo `mj_resetData` and a step.
+- *restart*: to start, make a step and stop, which takes some more; in MuJoCo `mj_resetData` and as many steps. *start and stop*: without the steps.
 - *falling*: a step of 31 bodies that are not convex and so fast that they are swept; MuJoCo has nothing like it.
 """
 
@@ -92,7 +92,7 @@ def theirs(file):
     return found | {"REST": [seconds_of(model, data, lambda: None)], "MOVES": [seconds_of(model, data, move)]}
 
 
-def their_restart(links, rounds=2000):
+def their_restart(links, steps, rounds=2000):
     text = ""
     for _ in range(links):
         text = LINK.format(text)
@@ -101,8 +101,16 @@ def their_restart(links, rounds=2000):
     start = time.perf_counter()
     for _ in range(rounds):
         mujoco.mj_resetData(model, data)
-        mujoco.mj_step(model, data, nstep=10)
+        mujoco.mj_step(model, data, nstep=10 * steps)
     return (time.perf_counter() - start) / rounds
+
+
+def restart(links, cache):
+    """Seconds of both to start, step and stop, and without the steps."""
+    found = swanilda("restarts.lua", cache, LINKS=links, ROUNDS=300)
+    steps = int(found["STEPS"][0])
+    ours, theirs = found["RESTART"][0], their_restart(links, steps)
+    return (ours, theirs), (ours - steps * found["STEP"][0], their_restart(links, 0))
 
 
 def row(name, what, ours, peer):
@@ -132,8 +140,9 @@ def main():
         robot(name, ROBOTS / file)
     with tempfile.TemporaryDirectory() as cache:
         for name, links in {"pendulum": 1, "chain of 7": 7}.items():
-            rounds = [(swanilda("restarts.lua", cache, LINKS=links, ROUNDS=300)["RESTART"][0], their_restart(links)) for _ in range(ROUNDS)]
-            row(name, "restart", *map(min, zip(*rounds)))
+            rounds = [restart(links, cache) for _ in range(ROUNDS)]
+            row(name, "restart", *map(min, zip(*(whole for whole, _ in rounds))))
+            row(name, "start and stop", *map(min, zip(*(bare for _, bare in rounds))))
         mesh = ROBOTS / "panda_description/meshes/collision/link3.stl"
         row("31 bodies", "falling", min(swanilda("falling.lua", cache, FILE=str(mesh))["FALLS"][0] for _ in range(ROUNDS)), None)
 

@@ -20,6 +20,8 @@ mod servers;
 #[cfg(test)]
 mod state_hash_tests;
 mod ui;
+#[cfg(test)]
+mod usual_main_tests;
 mod viewing;
 
 use std::cell::Ref;

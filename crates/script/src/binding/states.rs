@@ -2,12 +2,12 @@
 
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// One value of each type, made at the first use and dropped with the owner of the store.
 #[derive(Default)]
-pub struct States(RefCell<HashMap<TypeId, Rc<dyn Any>>>);
+pub struct States(RefCell<BTreeMap<TypeId, Rc<dyn Any>>>);
 
 impl States {
     /// The value of type `T`, which is made if there is none.

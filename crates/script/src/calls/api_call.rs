@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::binding::registry::{Bound, Member};
+use crate::binding::registry::Member;
 use crate::error::{ApiError, ApiResult};
 use crate::host::{Level, Runtime, Script, Sim};
 use scene::Data;
@@ -33,7 +33,7 @@ impl Sim {
             .ok_or(ApiError::ScriptNotInitialized)?;
         let registry = &self.modules.registry;
         match member {
-            Some(Member::Native(id)) => call_native(&runtime, registry.bound(id), args),
+            Some(Member::Native(id)) => runtime.env.call_native(registry.bound(id), args),
             Some(Member::Missing(id)) => Err(registry.missing_function(id).error()),
             Some(Member::Constant(_)) => Err(ApiError::CallFailed),
             Some(Member::Lua { .. }) | None => self.call_library(&runtime, name, args),
@@ -80,13 +80,4 @@ impl Sim {
             ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned())
         })
     }
-}
-
-fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
-    let env = &runtime.env;
-    let results = bound.call_data(env.tape(), env.values(args), || env.script_name());
-    if bound.function.mutates {
-        runtime.env.collect_events();
-    }
-    results.map_err(|error| bound.worded(error))
 }

@@ -48,12 +48,13 @@ pub use hooks::interrupt::{
 pub use hooks::listener::ask_running_code;
 pub(crate) use hooks::listener::{Catcher, Listener, listen, report_caught_errors};
 pub(crate) use hooks::resume::report_dropped_errors;
-pub(crate) use hooks::running::{RunningCallback, running_callback_number};
+pub(crate) use hooks::running::{NativeCall, RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};
 pub(crate) use live::{Call, LiveCode};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;
 pub(crate) use permissions::{restrict_libraries, search_by_permissions};
+pub(crate) use random_state::seeded;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::MAX_LIST_LENGTH;
 pub use stack::{Stack, Type};

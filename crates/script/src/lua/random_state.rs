@@ -13,6 +13,22 @@ const RANDOM_STATE: &CStr = c"swanilda.random";
 /// Where `math.random` has its state: four words in a userdata, which never moves and lives as long as the Lua state.
 pub(super) struct RandomState(Option<NonNull<[u64; 4]>>);
 
+/// The state after `math.randomseed(number)`, of an integer: xoshiro256**, of which the first numbers are dropped.
+pub(crate) fn seeded(number: i64) -> [u64; 4] {
+    let mut words = [number.cast_unsigned(), 0xff, 0, 0];
+    for _ in 0..16 {
+        let third = words[2] ^ words[0];
+        let fourth = words[3] ^ words[1];
+        words = [
+            words[0] ^ fourth,
+            words[1] ^ third,
+            third ^ (words[1] << 17),
+            fourth.rotate_left(45),
+        ];
+    }
+    words
+}
+
 impl RandomState {
     /// Of a state whose libraries were just opened.
     pub(super) fn of(stack: Stack<'_>) -> Self {

@@ -23,6 +23,17 @@ fn the_host_is_what_the_state_was_made_with() {
 }
 
 #[test]
+fn random_numbers_begin_where_lua_says() {
+    with_state(|state| {
+        for seed in [0, 1, -1, 42, i64::MAX, 0x1234_5678_9abc_def0] {
+            let code = format!("math.randomseed({seed})");
+            state.lua().load(code).exec().expect("runs");
+            assert_eq!(state.random_state(), Some(super::seeded(seed)));
+        }
+    });
+}
+
+#[test]
 fn entries_end_when_the_table_loses_the_current_key() {
     with_state(|state| {
         let stack = state.stack();

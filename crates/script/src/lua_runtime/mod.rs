@@ -19,6 +19,7 @@ mod taped;
 mod test_file;
 pub(crate) mod threads;
 pub(crate) mod user_modules;
+mod usual_main;
 
 use std::rc::Rc;
 
@@ -39,6 +40,7 @@ use idle::IdleFunctions;
 use permissions::Permissions;
 use scene::Data;
 use user_modules::UserModule;
+use usual_main::UsualMain;
 
 /// The callback that runs now, innermost; None for other calls. For other threads too.
 pub fn running_callback() -> Option<SysCall> {
@@ -110,8 +112,13 @@ impl Language for LuaLanguage {
     }
 
     fn create(&self, env: Rc<Env>) -> Rc<Runtime> {
-        let interpreter = self.interpreter(&env);
-        Runtime::new(env, interpreter)
+        match UsualMain::new(self, &env) {
+            Some(main) => Runtime::new(env, main),
+            None => {
+                let interpreter = self.interpreter(&env);
+                Runtime::new(env, interpreter)
+            }
+        }
     }
 }
 

@@ -119,7 +119,7 @@ fn seed_random(lua: &Lua, seed: u32) -> mlua::Result<()> {
     math.get::<Function>("randomseed")?.call(scrambled(seed))
 }
 
-fn scrambled(seed: u32) -> i64 {
+pub(super) fn scrambled(seed: u32) -> i64 {
     let mut bits = u64::from(seed).wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -169,19 +169,13 @@ impl Conversation<'_> {
         if bound.replacement.is_some() {
             return None;
         }
-        let results = bound.call_data(self.env.tape(), self.env.values(args), || {
-            self.env.script_name()
-        });
-        if bound.function.mutates {
-            self.env.collect_events();
-        }
-        match results {
+        match self.env.call_native(bound, args) {
             Ok(values) => Some(Ok(ApiResults {
                 values,
                 declared: declared_by(bound),
             })),
             Err(ApiError::NeedsLua) => None,
-            Err(error) => Some(Err(format!("in {name}: {}", bound.worded(error)))),
+            Err(error) => Some(Err(format!("in {name}: {error}"))),
         }
     }
 

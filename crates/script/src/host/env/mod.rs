@@ -11,9 +11,10 @@ use std::sync::Arc;
 use capture::Tape;
 
 use super::{Runtime, Script, Sim};
-use crate::binding::registry::Registry;
+use crate::binding::registry::{Bound, Registry};
 use crate::binding::source::Values;
 use crate::binding::states::States;
+use crate::error::ApiResult;
 use crate::event_stream::EventFilters;
 use crate::function_ref::FunctionRef;
 use crate::log::verbosity;
@@ -184,9 +185,14 @@ impl Env {
         self.runtime.get()?.upgrade()
     }
 
-    /// Plain values as arguments of a call on behalf of the script.
-    pub(crate) fn values<'a>(&'a self, args: &'a [Data]) -> Values<'a> {
-        Values::new(args, self)
+    /// Calls a native function on behalf of the script, with plain values.
+    pub(crate) fn call_native(&self, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let values = Values::new(args, self);
+        let results = bound.call_data(self.tape(), values, || self.script_name());
+        if bound.function.mutates {
+            self.collect_events();
+        }
+        results.map_err(|error| bound.worded(error))
     }
 
     /// Whether the callback has a function or a hook to run.

@@ -14,6 +14,8 @@ thread_local! {
     static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
     /// The coroutine that runs there, as far as `coroutine.resume` notes it; null while there is none.
     static CURRENT: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
+    /// Whether a call that needs no Lua state is in progress on this thread.
+    static IS_NATIVE: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Rises when a call from outside begins, and when it ends: it is odd while one runs. Calls inside of others are not counted.
@@ -64,7 +66,7 @@ impl Running {
     pub(in crate::lua) fn begin(stack: Stack<'_>) -> Self {
         let outer = RUNNING.replace(stack.raw());
         let outer_coroutine = CURRENT.replace(stack.raw());
-        if outer.is_null() {
+        if is_outermost(outer) {
             forget_request();
             pass_boundary();
         }
@@ -79,10 +81,42 @@ impl Drop for Running {
     fn drop(&mut self) {
         RUNNING.set(self.outer);
         CURRENT.set(self.outer_coroutine);
-        if self.outer.is_null() {
+        if is_outermost(self.outer) {
             pass_boundary();
         }
         // The interrupted function has ended; its caller may clean up.
+        forget_request();
+    }
+}
+
+/// Whether a call into Lua is inside of no other one, where `outer` is the one around it.
+fn is_outermost(outer: *mut ffi::lua_State) -> bool {
+    outer.is_null() && !IS_NATIVE.get()
+}
+
+/// A call of a script from outside that needs no Lua state. Nested ones end in reverse order.
+pub(crate) struct NativeCall {
+    is_outermost: bool,
+}
+
+impl NativeCall {
+    pub(crate) fn begin() -> Self {
+        let is_outermost = is_outermost(RUNNING.get());
+        if is_outermost {
+            forget_request();
+            pass_boundary();
+            IS_NATIVE.set(true);
+        }
+        Self { is_outermost }
+    }
+}
+
+impl Drop for NativeCall {
+    fn drop(&mut self) {
+        if self.is_outermost {
+            IS_NATIVE.set(false);
+            pass_boundary();
+        }
         forget_request();
     }
 }
