@@ -1,8 +1,8 @@
 --[[
 The ZeroMQ remote API: lets external programs call functions of this Lua state.
 
-Loaded as an add-on. All clients share its state: definitions and modules of one are visible to the others. Each request runs in its
-own coroutine (a task): it may wait for a step or call back into its client while other clients are served.
+Loaded as an add-on. All clients share its state: definitions and modules of one are visible to the others. Each request runs in a
+coroutine (a task), which serves others after it: it may wait for a step or call back into its client while other clients are served.
 
     swanilda.batch(calls, stopAtError)    several requests ({func, args, argsL} or {eval}) in one; returns a list of their replies,
                                           {ret} or {err} each
@@ -22,7 +22,7 @@ local namespaces = require('remote.namespaces')
 local requests = require('remote.zmq_arguments')
 local given = requests.given
 local decode = require('simCBOR').decode
-local resume, yield, status = coroutine.resume, coroutine.yield, coroutine.status
+local resume, yield, setAutoYield = coroutine.resume, coroutine.yield, setAutoYield -- whatever a client puts in their place
 local pack, unpack = table.pack, table.unpack
 
 local EXECUTED <const>, END <const> = '_*executed*_', '_*end*_'
@@ -32,6 +32,8 @@ local POLL_TIMEOUT <const> = 0.05 -- the same while a client holds it up
 local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MAX_HELD <const> = 1000 -- requests put off
 local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
+local MAX_IDLE <const> = 16 -- coroutines kept for further requests
+local MAX_DECLARED <const>, MAX_NAME <const> = 10000, 200 -- functions whose types are remembered, and the length of their names
 
 local current -- the client whose request is running
 local asking -- the client whose blocking callback everything waits for
@@ -52,7 +54,18 @@ local function answer(task, bytes)
 end
 
 local ASK <const> = {} -- yielded by a task that asks its client
-local deliverQueue -- below
+local DONE <const> = {} -- yielded by a task that has ended, with the answer
+local idle = {} -- coroutines without a task
+local perform, deliverQueue -- below
+
+local function serveTasks(client, request)
+    while true do
+        setAutoYield(1) -- a client may have allowed it
+        client, request = yield(DONE, perform(client, request))
+    end
+end
+
+local function takeCoroutine() return table.remove(idle) or coroutine.create(serveTasks) end
 
 local function awaitStep(client, task)
     steps.await(client, task, sim.getSystemTime())
@@ -66,9 +79,10 @@ local function run(client, task, ...)
     current, task.waits = client, nil
     local ok, what, bytes, callback = resume(task.coroutine, ...)
     current = before
-    if status(task.coroutine) == 'dead' then
+    if not ok or what == DONE then
         clients.endTask(client, task)
-        return answer(task, ok and what or answers.failure(what))
+        if ok and #idle < MAX_IDLE then idle[#idle + 1] = task.coroutine end
+        return answer(task, ok and bytes or answers.failure(what))
     end
     if what ~= ASK then return awaitStep(client, task) end
     task.waits, task.callback, task.since, task.isNoted = 'callback', callback, sim.getSystemTime(), nil
@@ -174,13 +188,27 @@ local LOCKS <const> = {
 
 local STEPS <const> = {['sim.step'] = true, ['sim.yield'] = true, ['sim.switchThread'] = true}
 
-local function perform(client, request)
+-- The types that functions are declared to return, by name; false where there are none.
+local declared, declaredCount = {}, 0
+
+local function typesOf(func)
+    local types = declared[func]
+    if types == nil then
+        types = native.returns(func) or false
+        if #func > MAX_NAME then return types end
+        if declaredCount >= MAX_DECLARED then declared, declaredCount = {}, 0 end
+        declared[func], declaredCount = types, declaredCount + 1
+    end
+    return types
+end
+
+function perform(client, request)
     local func = request.func
     client.asksForStep = STEPS[func or '']
     if func and func ~= '' then
         local args, n = requests.arguments(client, request, callbackOf)
         local code = LOCKS[func] or lookup(func)
-        return answers.results(pack(code(unpack(args, 1, n))), native.returns(func))
+        return answers.results(pack(code(unpack(args, 1, n))), typesOf(func))
     end
     if not request.eval then return answers.EMPTY end
     return answers.results(pack(assert(load(request.eval, nil, 't'))()))
@@ -207,7 +235,7 @@ local function executed(client, peer, request)
 end
 
 local function start(client, peer, request)
-    local task = clients.newTask(client, peer, perform)
+    local task = clients.newTask(client, peer, takeCoroutine)
     local ask = client.asks[#client.asks]
     if ask and not ask.task then
         ask.postponed[#ask.postponed + 1] = function() run(client, task, client, request) end

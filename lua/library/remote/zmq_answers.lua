@@ -5,7 +5,7 @@ Encodes results, errors and callbacks of the ZeroMQ remote API.
 local cbor = require('org.conman.cbor')
 local head = require('org.conman.cbor_c').encode
 local encode, concat = cbor.encode, table.concat
-local type, getmetatable, pairs, next, pcall, tostring = type, getmetatable, pairs, next, pcall, tostring
+local type, getmetatable, pairs, next, xpcall, tostring = type, getmetatable, pairs, next, xpcall, tostring
 
 local M = {}
 
@@ -34,9 +34,11 @@ local function withNames(value, depth)
     return isChanged and copy
 end
 
--- Looks for functions only in what cannot be encoded.
+local function asItIs(message) return message end
+
+-- Looks for functions only in what cannot be encoded. Not by pcall, which takes longer: it forbids yielding meanwhile.
 local function encodeAny(value)
-    local ok, bytes = pcall(encode, value)
+    local ok, bytes = xpcall(encode, asItIs, value)
     if ok then return bytes end
     local named = withNames(value, 2)
     if named then return encode(named) end

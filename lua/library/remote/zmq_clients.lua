@@ -104,9 +104,9 @@ end
 
 ---------------------------------------------------------------- tasks
 
-function M.newTask(client, peer, code)
+function M.newTask(client, peer, takeCoroutine)
     if #client.tasks >= MAX_TASKS then error('too many requests without an answer', 0) end
-    local task = {peer = peer, owner = peer, coroutine = coroutine.create(code)}
+    local task = {peer = peer, owner = peer, coroutine = takeCoroutine()}
     client.tasks[#client.tasks + 1] = task
     return task
 end
