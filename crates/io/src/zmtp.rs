@@ -101,9 +101,9 @@ fn command(name: &[u8], data: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The answer to a request.
-pub(super) fn answer(envelope: &[u8], content: &[u8]) -> Vec<u8> {
-    let mut out = Vec::with_capacity(envelope.len() + content.len() + 9);
+/// What comes before the content of an answer to a request.
+pub(super) fn answer_head(envelope: &[u8], content: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(envelope.len() + 9);
     out.extend_from_slice(envelope);
     match u8::try_from(content.len()) {
         Ok(length) => out.extend([0, length]),
@@ -112,7 +112,6 @@ pub(super) fn answer(envelope: &[u8], content: &[u8]) -> Vec<u8> {
             out.extend_from_slice(&(content.len() as u64).to_be_bytes());
         }
     }
-    out.extend_from_slice(content);
     out
 }
 
@@ -334,6 +333,10 @@ mod tests {
         ready.extend_from_slice(socket_type);
         bytes.extend(command(b"READY", &ready));
         bytes
+    }
+
+    fn answer(envelope: &[u8], content: &[u8]) -> Vec<u8> {
+        [&answer_head(envelope, content), content].concat()
     }
 
     fn request(content: &[u8]) -> Vec<u8> {

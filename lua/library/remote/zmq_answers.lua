@@ -16,6 +16,7 @@ M.EMPTY = encode({})
 
 local NO_RESULT <const> = '\xa1\x63ret\xa0'
 local RESULTS <const> = '\xa1\x63ret'
+local NO_TYPES <const> = {}
 
 --- Functions of clients as clients write them. One that a function has received comes back as that text, for instance in the parameters
 --- of sim.moveToConfig, which are its result as well.
@@ -59,23 +60,30 @@ local function encodeTable(t)
 end
 
 -- The types a function is declared to return; only they tell text from bytes, and an empty list from an empty map.
-local function encodeResult(value, declared, first)
-    local kind = type(value)
-    if declared and kind == 'table' and not getmetatable(value) then return encodeTable(value) end
-    if first and kind == 'string' then
-        if declared == 'string' then return cbor.TYPE.TEXT(value) end
-        if declared == 'buffer' then return cbor.TYPE.BIN(value) end
-    end
+local function encodeResult(value, declared)
+    if declared and type(value) == 'table' and not getmetatable(value) then return encodeTable(value) end
     return encodeAny(value)
+end
+
+-- The first result, as what comes before its bytes and these: pictures are long, and each copy of them takes time.
+local function encodeFirst(value, declared)
+    if type(value) == 'string' then
+        if declared == 'string' then return '', cbor.TYPE.TEXT(value) end
+        if declared == 'buffer' then return head(0x40, #value), value end
+    end
+    return '', encodeResult(value, declared)
 end
 
 --- The answer with results.
 function M.results(results, types)
     local n = results.n
     if n == 0 then return NO_RESULT end
-    if n == 1 then return RESULTS .. '\x81' .. encodeResult(results[1], types and types[1], true) end
-    local parts = {RESULTS, head(0x80, n)}
-    for i = 1, n do parts[i + 2] = encodeResult(results[i], types and types[i], i == 1) end
+    types = types or NO_TYPES
+    local before, first = encodeFirst(results[1], types[1])
+    if n == 1 then return RESULTS .. '\x81' .. before .. first end
+    if n == 2 then return RESULTS .. '\x82' .. before .. first .. encodeResult(results[2], types[2]) end
+    local parts = {RESULTS, head(0x80, n), before, first}
+    for i = 2, n do parts[i + 3] = encodeResult(results[i], types[i]) end
     return concat(parts)
 end
 

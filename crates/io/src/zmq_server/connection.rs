@@ -1,6 +1,6 @@
 //! The sending side of a connection, and what it is waiting for.
 
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, IoSlice};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tokio::net::tcp::OwnedWriteHalf;
@@ -109,35 +109,44 @@ impl Connection {
         (state.is_asking, state.last_active) = (false, Instant::now());
         drop(state);
         let mut outgoing = self.outgoing();
-        let bytes = zmtp::answer(&outgoing.envelope, content);
-        if self.send(&mut outgoing, &bytes).is_err() {
+        let head = zmtp::answer_head(&outgoing.envelope, content);
+        if self.send(&mut outgoing, &head, content).is_err() {
             drop(outgoing);
             self.abandon();
         }
     }
 
-    /// Writes bytes; what the system does not accept at once is stored.
-    pub(super) fn send(&self, outgoing: &mut Outgoing, bytes: &[u8]) -> io::Result<()> {
+    /// Writes bytes and those that follow; what the system does not accept at once is stored.
+    pub(super) fn send(
+        &self,
+        outgoing: &mut Outgoing,
+        head: &[u8],
+        content: &[u8],
+    ) -> io::Result<()> {
         if outgoing.unsent.len() > MAX_UNREAD {
             return Err(ErrorKind::OutOfMemory.into());
         }
         let sent = if outgoing.unsent.is_empty() {
-            self.write(bytes)?
+            self.write(head, content)?
         } else {
             0
         };
-        if sent < bytes.len() {
-            outgoing.unsent.extend_from_slice(&bytes[sent..]);
+        if sent < head.len() + content.len() {
+            let (head_left, content_left) = left(head, content, sent);
+            outgoing.unsent.extend_from_slice(head_left);
+            outgoing.unsent.extend_from_slice(content_left);
             self.more.notify_one();
         }
         Ok(())
     }
 
     /// Writes as much as the system takes without waiting.
-    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+    fn write(&self, head: &[u8], content: &[u8]) -> io::Result<usize> {
         let mut sent = 0;
-        while sent < bytes.len() {
-            match self.stream.try_write(&bytes[sent..]) {
+        while sent < head.len() + content.len() {
+            let (head, content) = left(head, content, sent);
+            let both = [IoSlice::new(head), IoSlice::new(content)];
+            match self.stream.try_write_vectored(&both) {
                 Ok(count) => sent += count,
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,
                 Err(error) => return Err(error),
@@ -149,7 +158,7 @@ impl Connection {
     /// Sends what was stored.
     fn flush(&self) -> io::Result<()> {
         let mut outgoing = self.outgoing();
-        let sent = self.write(&outgoing.unsent)?;
+        let sent = self.write(&outgoing.unsent, &[])?;
         outgoing.unsent.drain(..sent);
         Ok(())
     }
@@ -174,4 +183,10 @@ impl Connection {
             Ok(())
         }
     }
+}
+
+/// What is left of two parts of which so many bytes are done with.
+fn left<'a>(head: &'a [u8], content: &'a [u8], done: usize) -> (&'a [u8], &'a [u8]) {
+    let of_head = done.min(head.len());
+    (&head[of_head..], &content[done - of_head..])
 }

@@ -52,7 +52,7 @@ impl Receiver {
 
     /// Greets the peer and waits until it has introduced itself.
     pub(super) async fn shake_hands(&mut self, connection: &Connection) -> io::Result<()> {
-        connection.send(&mut connection.outgoing(), &zmtp::hello())?;
+        connection.send(&mut connection.outgoing(), &zmtp::hello(), &[])?;
         while !self.decoder.is_ready() {
             self.read_or_send(connection).await?;
             self.decoder.shake_hands().map_err(io::Error::other)?;
@@ -84,7 +84,7 @@ impl Receiver {
             match self.decoder.next().map_err(io::Error::other)? {
                 Some(PeerMessage::Request(request)) => return Ok(request),
                 Some(PeerMessage::Ping(context)) => {
-                    connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?;
+                    connection.send(&mut connection.outgoing(), &zmtp::pong(&context), &[])?;
                 }
                 None => self.read_or_send(connection).await?,
             }
