@@ -33,7 +33,6 @@ local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MAX_HELD <const> = 1000 -- requests put off
 local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
 local MAX_IDLE <const> = 16 -- coroutines kept for further requests
-local MAX_DECLARED <const>, MAX_NAME <const> = 10000, 200 -- functions whose types are remembered, and the length of their names
 
 local current -- the client whose request is running
 local asking -- the client whose blocking callback everything waits for
@@ -188,27 +187,13 @@ local LOCKS <const> = {
 
 local STEPS <const> = {['sim.step'] = true, ['sim.yield'] = true, ['sim.switchThread'] = true}
 
--- The types that functions are declared to return, by name; false where there are none.
-local declared, declaredCount = {}, 0
-
-local function typesOf(func)
-    local types = declared[func]
-    if types == nil then
-        types = native.returns(func) or false
-        if #func > MAX_NAME then return types end
-        if declaredCount >= MAX_DECLARED then declared, declaredCount = {}, 0 end
-        declared[func], declaredCount = types, declaredCount + 1
-    end
-    return types
-end
-
 function perform(client, request)
     local func = request.func
     client.asksForStep = STEPS[func or '']
     if func and func ~= '' then
         local args, n = requests.arguments(client, request, callbackOf)
         local code = LOCKS[func] or lookup(func)
-        return answers.results(pack(code(unpack(args, 1, n))), typesOf(func))
+        return answers.results(pack(code(unpack(args, 1, n))), answers.typesOf(func, native.returns))
     end
     if not request.eval then return answers.EMPTY end
     return answers.results(pack(assert(load(request.eval, nil, 't'))()))

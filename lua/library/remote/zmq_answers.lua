@@ -18,6 +18,20 @@ local NO_RESULT <const> = '\xa1\x63ret\xa0'
 local RESULTS <const> = '\xa1\x63ret'
 local NO_TYPES <const> = {}
 
+local MAX_DECLARED <const>, MAX_NAME <const> = 10000, 200 -- functions whose types are remembered, and the length of their names
+local declared, declaredCount = {}, 0
+
+--- The types that a function is declared to return, which `returns` knows; false where there are none.
+function M.typesOf(func, returns)
+    local types = declared[func]
+    if types ~= nil then return types end
+    types = returns(func) or false
+    if #func > MAX_NAME then return types end
+    if declaredCount >= MAX_DECLARED then declared, declaredCount = {}, 0 end
+    declared[func], declaredCount = types, declaredCount + 1
+    return types
+end
+
 --- Functions of clients as clients write them. One that a function has received comes back as that text, for instance in the parameters
 --- of sim.moveToConfig, which are its result as well.
 M.names = setmetatable({}, {__mode = 'k'})
