@@ -1803,7 +1803,8 @@ enum {
     X(int, simSerialCheck, "simSerialCheck", (int a)) \
     X(int, simSerialRead, "simSerialRead", (int a, unsigned char* b, int nb)) \
     X(int, simSerialSend, "simSerialSend", (int a, const char* b, int nb)) \
-    X(int, simQuitSimulator, "simQuitSimulator", (bool a))
+    X(int, simQuitSimulator, "simQuitSimulator", (bool a)) \
+    X(char*, simGetApiInfo, "simGetApiInfo", (int a, const char* b))
 
 #define SWANILDA_DECLARE(result, name, symbol, parameters) extern result (*name) parameters;
 SWANILDA_FUNCTIONS(SWANILDA_DECLARE)

@@ -72,6 +72,8 @@ fn compile_for_programs(is_supported: bool, out: &Path) {
     ];
     let for_41 = linked("INTERFACE_41", include_str!("src/symbols_41.tsv"));
     compile(is_supported, out, "libcoppeliaSim_41.so", &for_41, &link);
+    let for_410 = linked("INTERFACE_410", include_str!("src/symbols_410.tsv"));
+    compile(is_supported, out, "libcoppeliaSim_410.so", &for_410, &link);
 }
 
 /// The functions of a table, which call the simulator's library by the number of the table: libraries of different builds notice that

@@ -892,6 +892,18 @@ function sim.generateTimeOptimalTrajectory(path, pathLengths, minMaxVel, minMaxA
 ---@return number[] configs flat table, the given one among them
 function sim.getAlternateConfigs(joints, config, tip, lowLimits, ranges) end
 
+--- The names of functions and constants that begin with a word.
+---@param scriptHandle integer not used: all scripts have the same functions
+---@param apiWord string `sim.getObj`
+---@return string[] funcsAndVars in alphabetical order
+function sim.getApiFunc(scriptHandle, apiWord) end
+
+--- The calltip of a function: `RESULTS = NAME(PARAMETERS)`.
+---@param scriptHandle integer not used: all scripts have the same functions
+---@param apiWord string `sim.getObject`, or a function of another module
+---@return string info empty for what is not known
+function sim.getApiInfo(scriptHandle, apiWord) end
+
 --- A parameter of three numbers.
 ---@param parameter integer sim.arrayparam_*
 ---@return number[] parameterValues

@@ -671,6 +671,20 @@ class _remote_ws:
         """one step; the reply is immediate
         """
 
+class _scriptClientBridge:
+    def call(self, request: Any | None = ..., /) -> Any:
+        """A call as CBOR, {func, args}; its answer as CBOR, {success, result} or {success, error}.
+        """
+    def getField(self, name: Any | None = ..., /) -> Any:
+        """The value that a dotted name leads to.
+        """
+    def info(self, object: Any | None = ..., /) -> Any:
+        """What an object, or what a dotted name leads to, consists of: {func} and {const}, and the same of the tables in it.
+        """
+    def require(self, name: Any | None = ..., /) -> Any:
+        """Makes a module a global, by its name without a version.
+        """
+
 class _sim:
     addonscriptcall_cleanup: int
     addonscriptcall_initialization: int
@@ -2795,6 +2809,16 @@ class _sim:
         tip: ignored
         lowLimits: instead of those of the joints
         ranges: instead of those of the joints
+        """
+    def getApiFunc(self, scriptHandle: int, apiWord: str, /) -> list[str]:
+        """The names of functions and constants that begin with a word.
+        scriptHandle: not used: all scripts have the same functions
+        apiWord: `sim.getObj`
+        """
+    def getApiInfo(self, scriptHandle: int, apiWord: str, /) -> str:
+        """The calltip of a function: `RESULTS = NAME(PARAMETERS)`.
+        scriptHandle: not used: all scripts have the same functions
+        apiWord: `sim.getObject`, or a function of another module
         """
     def getArrayParam(self, parameter: int, /) -> list[float]:
         """A parameter of three numbers.
@@ -10713,6 +10737,8 @@ class Requires:
     def require(self, name: Literal["priorityqueue"], script: int | None = None) -> _priorityqueue: ...
     @overload
     def require(self, name: Literal["remote.ws"], script: int | None = None) -> _remote_ws: ...
+    @overload
+    def require(self, name: Literal["scriptClientBridge"], script: int | None = None) -> _scriptClientBridge: ...
     @overload
     def require(self, name: Literal["sim"], script: int | None = None) -> _sim: ...
     @overload

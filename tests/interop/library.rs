@@ -12,10 +12,31 @@ use crate::server::{folder, python};
 /// For the library, which is built in the profile of tests.
 const BUILD: Duration = Duration::from_secs(1800);
 
-/// The folder that `swanilda library` writes, with the add-on of the programs.
+/// The folder that `swanilda library` writes for CoppeliaSim 4.1, with the add-on of the programs.
 fn root() -> &'static Path {
     static ROOT: OnceLock<PathBuf> = OnceLock::new();
     ROOT.get_or_init(|| {
+        let root = written("4.1");
+        let add_on = "simAddOnScript_Stack.lua";
+        std::fs::copy(files().join(add_on), root.join(add_on)).expect("the folder is writable");
+        root
+    })
+}
+
+/// The folder for a version of CoppeliaSim.
+fn written(version: &str) -> PathBuf {
+    build();
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coppeliasim-{version}"));
+    let mut library = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    library.args(["library", "--for", version]).arg(&root);
+    succeed(&mut library, BUILD);
+    root
+}
+
+/// Builds the library of the simulator, beside the command.
+fn build() {
+    static BUILT: OnceLock<()> = OnceLock::new();
+    BUILT.get_or_init(|| {
         let swanilda = Path::new(env!("CARGO_BIN_EXE_swanilda"));
         let target = swanilda
             .ancestors()
@@ -27,14 +48,7 @@ fn root() -> &'static Path {
             .arg(target)
             .current_dir(env!("CARGO_MANIFEST_DIR"));
         succeed(&mut cargo, BUILD);
-        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coppeliasim-root");
-        let mut library = Command::new(swanilda);
-        library.arg("library").arg(&root);
-        succeed(&mut library, BUILD);
-        let add_on = "simAddOnScript_Stack.lua";
-        std::fs::copy(files().join(add_on), root.join(add_on)).expect("the folder is writable");
-        root
-    })
+    });
 }
 
 fn files() -> PathBuf {
@@ -50,6 +64,10 @@ fn succeed(command: &mut Command, limit: Duration) -> String {
 
 /// Runs a program in Python, which says `ok` at its end.
 fn run_program(name: &str) {
+    run_program_on(name, root());
+}
+
+fn run_program_on(name: &str, root: &Path) {
     let Some(python) = python() else { return };
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let declarations = "crates/c-interface/src/abi_41.tsv";
@@ -58,7 +76,7 @@ fn run_program(name: &str) {
         .arg(files().join(name))
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(declarations))
         .arg(folder.path())
-        .env("COPPELIASIM_ROOT", root())
+        .env("COPPELIASIM_ROOT", root)
         .env("PYTHONDONTWRITEBYTECODE", "1");
     let text = succeed(&mut program, Duration::from_secs(300));
     assert_eq!(text.lines().last(), Some("ok"), "{text}");
@@ -77,6 +95,11 @@ fn memory_does_not_grow_with_resets() {
 #[test]
 fn threads_and_processes_are_kept_apart() {
     run_program("threads.py");
+}
+
+#[test]
+fn the_package_of_the_original_finds_functions_modules_and_types() {
+    run_program_on("package.py", &written("4.10"));
 }
 
 #[test]

@@ -23,6 +23,7 @@ pub(crate) use script::{ApiError, ApiResult as Result, Args, Cx, FromScript, fun
 const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals", scripts::global::FUNCTIONS),
     ("Scripts", scripts::script::FUNCTIONS),
+    ("What is known of functions", scripts::help::FUNCTIONS),
     ("Older script functions", old::script::FUNCTIONS),
     ("Globals of V-REP", old::globals::FUNCTIONS),
     ("Paths of V-REP", old::paths::FUNCTIONS),

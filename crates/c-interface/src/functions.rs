@@ -148,7 +148,14 @@ impl Call<'_> {
         }
     }
 
-    /// The same as text.
+    /// Calls a parameter that is a function without parameters, unless it is NULL.
+    pub fn run_callback(&self, place: usize) {
+        if let Some(value) = self.values.get(place) {
+            value.address.run();
+        }
+    }
+
+    /// A parameter that is a text, as UTF-8.
     ///
     /// # Errors
     /// When it is NULL.

@@ -25,7 +25,7 @@ mod signature;
 mod stacks;
 
 pub use current::{Attached, Frame, attach, has_frame};
-pub use dispatch::{Call, Interface, interface_41, plugin_interface};
+pub use dispatch::{Call, Interface, interface_41, interface_410, plugin_interface};
 pub use ffi::Value;
 pub use functions::{Answer, Function};
 pub use plugins::{Moment, Plugin, Plugins, Variable};
@@ -35,11 +35,20 @@ pub use signature::{Param, Size, Symbol};
 /// simulator's library beside it.
 pub const LIBRARY_41: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/libcoppeliaSim_41.so"));
 
-/// The number by which that library calls the interface.
-pub const INTERFACE_41: u32 = match u32::from_str_radix(env!("INTERFACE_41"), 10) {
-    Ok(number) => number,
-    Err(_) => panic!("the build script has written a number"),
-};
+/// The same for CoppeliaSim 4.10.
+pub const LIBRARY_410: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/libcoppeliaSim_410.so"));
+
+/// The numbers by which these libraries call their interfaces.
+pub const INTERFACE_41: u32 = number(env!("INTERFACE_41"));
+/// The same for CoppeliaSim 4.10.
+pub const INTERFACE_410: u32 = number(env!("INTERFACE_410"));
+
+const fn number(text: &str) -> u32 {
+    match u32::from_str_radix(text, 10) {
+        Ok(number) => number,
+        Err(_) => panic!("the build script has written a number"),
+    }
+}
 
 use scene::Data;
 

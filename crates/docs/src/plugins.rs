@@ -68,7 +68,7 @@ pub(super) fn text() -> String {
 fn c_interface() -> String {
     let missing: Vec<String> = plugin_interface()
         .symbols()
-        .filter(|row| row.is_missing())
+        .filter(|row| row.is_missing() || row.is_launch())
         .map(|row| format!("`{}`", row.symbol))
         .collect();
     let all = plugin_interface().symbols().count();

@@ -3,6 +3,9 @@
 //! One thread says what to start and waits for the end (`simExtLaunchUIThread`). Another one becomes the thread of the simulator
 //! (`simExtSimThreadInit`), steps it and ends it (`simExtSimThreadDestroy`); then the next may be started. Any thread may ask for the
 //! end (`simExtPostExitRequest`), and whether somebody did (`simExtGetExitRequest`).
+//!
+//! In CoppeliaSim 4.10 the thread of the simulator says what to start (`simInitialize`, `simLoop`, `simDeinitialize`), and another one
+//! may wait for the end (`simRunGui`).
 
 use std::path::PathBuf;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -28,18 +31,29 @@ pub(crate) const FUNCTIONS: &[(&str, Function)] = &[
         answer(state().exit_is_requested)
     }),
     ("launch.step", |call| step(*call.arg(0) == Data::Bool(true))),
+    ("launch.gui", |_| wait_for_end()),
+    ("launch.initialize", initialize),
+    ("launch.loop", |call| {
+        call.run_callback(0);
+        step(call.int(1)? != 0)
+    }),
+    ("launch.deinitialize", |_| destroy()),
 ];
 
 /// The parameters that a program may set before the start: what is logged, and what the status bar of the original shows.
 const VERBOSITY: [i64; 2] = [121, 122];
+
+const BUSY: &str = "a simulator of this process is running: end it first";
 
 /// What to start.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Launch {
     /// A scene or model; none for the default scene.
     pub scene: Option<PathBuf>,
-    /// The folder of the library, with the add-ons of its user.
+    /// The folder of the library.
     pub root: PathBuf,
+    /// Whether its add-ons are those of CoppeliaSim 4.1, beside the library.
+    pub has_old_add_ons: bool,
     /// What is logged, by name or number.
     pub verbosity: Option<String>,
 }
@@ -59,6 +73,8 @@ struct State {
     /// Whether no simulation runs, as threads beside the simulator's see it.
     is_stopped: bool,
     verbosity: Option<String>,
+    /// How many simulators have ended.
+    ends: u64,
 }
 
 static STATE: Mutex<State> = Mutex::new(State {
@@ -66,6 +82,7 @@ static STATE: Mutex<State> = Mutex::new(State {
     exit_is_requested: false,
     is_stopped: true,
     verbosity: None,
+    ends: 0,
 });
 static ENDED: Condvar = Condvar::new();
 
@@ -111,14 +128,12 @@ fn run(call: &Call<'_>) -> Answer {
     };
     let mut state = state();
     if !matches!(state.phase, Phase::Idle) {
-        return Err(
-            "a simulator of this process is running: end it with simExtSimThreadDestroy first"
-                .into(),
-        );
+        return Err(BUSY.into());
     }
     state.phase = Phase::Launched(Launch {
         scene: path(2),
         root: path(3).unwrap_or_default(),
+        has_old_add_ons: true,
         verbosity: state.verbosity.clone(),
     });
     state.exit_is_requested = false;
@@ -135,7 +150,7 @@ fn run(call: &Call<'_>) -> Answer {
 fn init() -> Answer {
     let launch = match &state().phase {
         Phase::Launched(launch) => launch.clone(),
-        Phase::Running => return Err("a simulator of this process is running already".into()),
+        Phase::Running => return Err(BUSY.into()),
         Phase::Idle => {
             return Err("simExtLaunchUIThread has to be called first, by another thread".into());
         }
@@ -148,8 +163,39 @@ fn init() -> Answer {
 
 fn destroy() -> Answer {
     session::end()?;
-    state().phase = Phase::Idle;
+    let mut state = state();
+    state.phase = Phase::Idle;
+    state.ends += 1;
     ENDED.notify_all();
+    answer(true)
+}
+
+/// Parameters: folder of the library, options of windows.
+fn initialize(call: &Call<'_>) -> Answer {
+    let launch = Launch {
+        root: call.text(0).map(PathBuf::from).unwrap_or_default(),
+        verbosity: state().verbosity.clone(),
+        ..Launch::default()
+    };
+    if !matches!(state().phase, Phase::Idle) {
+        return Err(BUSY.into());
+    }
+    session::begin(&launch)?;
+    let mut state = state();
+    (state.phase, state.is_stopped) = (Phase::Running, true);
+    state.exit_is_requested = false;
+    answer(true)
+}
+
+/// Until the next simulator has ended, or somebody asks for the end while there is none.
+fn wait_for_end() -> Answer {
+    let state = state();
+    let ends = state.ends;
+    let is_going_on = |state: &mut State| {
+        let is_idle = matches!(state.phase, Phase::Idle);
+        state.ends == ends && !(is_idle && state.exit_is_requested)
+    };
+    drop(ENDED.wait_while(state, is_going_on));
     answer(true)
 }
 

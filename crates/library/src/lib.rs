@@ -11,13 +11,14 @@ mod unattached;
 
 use std::sync::Once;
 
-use c_interface::{INTERFACE_41, Interface, Value, interface_41};
+use c_interface::{INTERFACE_41, INTERFACE_410, Interface, Value, interface_41, interface_410};
 use heap::Lazy;
 
 #[global_allocator]
 static ALLOCATOR: heap::Allocator = heap::Allocator;
 
 static OF_41: Lazy<Interface> = Lazy::new(|| interface_41(launch::FUNCTIONS));
+static OF_410: Lazy<Interface> = Lazy::new(|| interface_410(launch::FUNCTIONS));
 
 /// A call of a function: the number of the interface, the row in its table of symbols, the parameters and their number. The result is
 /// what C returns, but numbers that are no integers: those are the last value.
@@ -33,11 +34,13 @@ pub unsafe extern "C" fn swanilda_library_call(
     count: u32,
 ) -> i64 {
     unattached::attach_thread();
-    if interface != INTERFACE_41 {
-        return foreign();
-    }
+    let interface = match interface {
+        INTERFACE_41 => &*OF_41,
+        INTERFACE_410 => &*OF_410,
+        _ => return foreign(),
+    };
     // SAFETY: the generated library has made the values for this row.
-    unsafe { OF_41.call_from_c(row, values, count) }
+    unsafe { interface.call_from_c(row, values, count) }
 }
 
 /// A call by a library of another build, whose rows may be others.

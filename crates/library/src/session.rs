@@ -73,7 +73,9 @@ fn options(launch: &Launch) -> Options {
 
 /// Add-ons start first, as they come with the application; then the scene is opened.
 fn fill(simulator: &mut Simulator, launch: &Launch) -> Result<(), String> {
-    add_ons::start(simulator, &launch.root)?;
+    if launch.has_old_add_ons {
+        add_ons::start(simulator, &launch.root)?;
+    }
     match &launch.scene {
         Some(scene) => simulator.open(scene, ScriptKind::Customization),
         None => simulator.add_default_objects(),

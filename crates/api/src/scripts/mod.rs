@@ -2,6 +2,7 @@
 
 pub(crate) mod events;
 pub(crate) mod global;
+pub(crate) mod help;
 pub(crate) mod script;
 pub(crate) mod simulation;
 pub(crate) mod thread;

@@ -106,6 +106,16 @@ impl Address {
         )
     }
 
+    /// Calls a function without parameters, unless it is NULL. An exception out of it ends the process.
+    pub fn run(self) {
+        if self.is_null() {
+            return;
+        }
+        // SAFETY: the row says that this is a function of that type.
+        let function = unsafe { std::mem::transmute::<*mut c_void, extern "C" fn()>(self.0) };
+        function();
+    }
+
     /// A function of the plugin; None for a null pointer.
     pub(crate) fn callback(self) -> Option<Callback> {
         if self.is_null() {

@@ -20,7 +20,7 @@ pub(super) fn text() -> String {
     out.push_str("#define SWANILDA_FUNCTIONS(X)");
     for row in c_interface::plugin_interface()
         .symbols()
-        .filter(|row| !row.is_missing())
+        .filter(|row| !row.is_missing() && !row.is_launch())
     {
         // Without the suffix for double precision, as plugins call it.
         let name = row.symbol.trim_end_matches("_D");

@@ -24,6 +24,26 @@ pub struct DefaultValue {
     pub constant: Option<&'static str>,
 }
 
+impl DefaultValue {
+    /// The constant, or the value as a script would write it where that is short.
+    pub fn text(self) -> String {
+        let value = match (self.constant, (self.value)()) {
+            (Some(constant), _) => return constant.to_owned(),
+            (None, value) => value,
+        };
+        match value {
+            Data::Nil => "nil".to_owned(),
+            Data::Bool(value) => value.to_string(),
+            Data::Int(value) => value.to_string(),
+            Data::Float(value) => format!("{value:?}"),
+            Data::Text(text) | Data::Buffer(text) => {
+                format!("'{}'", String::from_utf8_lossy(&text))
+            }
+            Data::Array(_) | Data::Map(_) => "{}".to_owned(),
+        }
+    }
+}
+
 impl Param {
     /// A parameter without a default of its own.
     ///

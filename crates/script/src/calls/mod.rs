@@ -35,10 +35,12 @@ impl Sim {
         if !script.is_running() {
             return Err(ApiError::CallFailed);
         }
-        let results = self.call_named(&runtime, name, args)?.map_err(|error| {
-            self.fail(script, &error);
-            ApiError::ErrorInCallee
-        });
+        let results = self
+            .call_named(script, &runtime, name, args)?
+            .map_err(|error| {
+                self.fail(script, &error);
+                ApiError::ErrorInCallee
+            });
         if runtime.env.depth.get() == 0 {
             self.complete_call(script, SysCall::Ext, None);
         }
@@ -48,6 +50,7 @@ impl Sim {
     /// The inner result is the callee's own.
     fn call_named(
         &self,
+        script: &Rc<Script>,
         runtime: &Runtime,
         name: &str,
         args: &[Data],
@@ -59,8 +62,17 @@ impl Sim {
         match runtime.interpreter.call(Callee::Named(name), args) {
             Ok(results) => Ok(Ok(results)),
             Err(CallError::Script(error)) => Ok(Err(error)),
-            Err(CallError::NoSuchFunction) => Err(ApiError::CallFailed),
+            Err(CallError::NoSuchFunction) => self.call_builtin(script, name, args).map(Ok),
         }
+    }
+
+    /// Calls a function of a module by its full name: tables of modules are filled as scripts use them.
+    fn call_builtin(&self, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let name = name.strip_suffix("@lua").unwrap_or(name);
+        if !name.contains('.') || self.modules.registry.find(name).is_none() {
+            return Err(ApiError::CallFailed);
+        }
+        self.call_api(script, name, args)
     }
 
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.

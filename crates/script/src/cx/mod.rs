@@ -7,6 +7,7 @@ mod events;
 mod files;
 mod handlers;
 mod host;
+mod names;
 mod objects;
 mod output;
 mod outside;

@@ -388,8 +388,9 @@ fn push_dotted(stack: Stack<'_>, name: &str) {
 }
 
 /// Pushes the function of that name, or the script's `sysCall_ext` with the name as its first argument; returns the number of arguments
-/// pushed. None when there is no such function.
+/// pushed. None when there is no such function. The name may end with the language, `@lua`.
 fn push_named(stack: Stack<'_>, name: &str) -> Option<i32> {
+    let name = name.strip_suffix("@lua").unwrap_or(name);
     if stack.push_global(SysCall::Ext.name()) == Type::Function {
         stack.push_bytes(name.as_bytes());
         return Some(1);

@@ -31,18 +31,25 @@ pub(super) struct Args {
     simulator: Option<PathBuf>,
 }
 
+/// What CoppeliaSim's Python package looks for in the folder of Python files: the types in the first lines of functions' descriptions.
+const CALLTIP: &str = include_str!("calltip.py");
+
 /// The versions of CoppeliaSim's library.
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 enum Version {
     /// Numbers in single precision: PyRep, RLBench.
     #[value(name = "4.1")]
     V41,
+    /// Numbers in double precision: CoppeliaSim's own Python package.
+    #[value(name = "4.10")]
+    V410,
 }
 
 impl Version {
     fn front(self) -> &'static [u8] {
         match self {
             Self::V41 => c_interface::LIBRARY_41,
+            Self::V410 => c_interface::LIBRARY_410,
         }
     }
 }
@@ -88,10 +95,16 @@ fn fill(args: &Args, program: &Path, simulator: &Path) -> io::Result<()> {
     let folder = &args.folder;
     // Programs keep their settings here.
     fs::create_dir_all(folder.join("system"))?;
+    fs::create_dir_all(folder.join("python"))?;
+    put(&folder.join("python/calltip.py"), 0o644, |file| {
+        fs::write(file, CALLTIP)
+    })?;
     put(&folder.join(FRONT), 0o755, |file| {
         fs::write(file, args.release.front())
     })?;
-    link(FRONT, &folder.join("libcoppeliaSim.so.1"))?;
+    for name in ["libcoppeliaSim.so.1", "libcoppeliaSimHeadless.so"] {
+        link(FRONT, &folder.join(name))?;
+    }
     put(&folder.join(SIMULATOR), 0o755, |file| {
         fs::copy(simulator, file).map(drop)
     })?;

@@ -1,0 +1,190 @@
+"""What CoppeliaSim's own Python package does with the library of 4.10, by ctypes: one thread starts and loops, functions are called
+by name with stacks, modules describe themselves, types come from calltips.
+
+Usage: package.py TABLE FOLDER, which are not used.
+"""
+
+import ctypes
+import importlib
+import os
+import sys
+import threading
+from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_longlong, c_void_p
+
+ROOT = os.environ["COPPELIASIM_ROOT"]
+STRING_PARAM_PYTHON_FOLDER = 137
+
+lib = ctypes.cdll.LoadLibrary(ROOT + "/libcoppeliaSimHeadless.so")
+for name in ("simGetStackStringValue", "simGetStringParam", "simGetLastError"):
+    getattr(lib, name).restype = c_void_p
+lib.simReleaseBuffer.argtypes = [c_void_p]
+lib.simPushDoubleOntoStack.argtypes = [c_int, c_double]
+lib.simPushInt64OntoStack.argtypes = [c_int, c_longlong]
+lib.simPushBoolOntoStack.argtypes = [c_int, c_bool]
+lib.simRunGui.restype = None
+
+
+def text_of(address, length=None):
+    text = ctypes.string_at(address) if length is None else ctypes.string_at(address, length)
+    lib.simReleaseBuffer(address)
+    return text
+
+
+def push(stack, value):
+    if value is None:
+        lib.simPushNullOntoStack(stack)
+    elif isinstance(value, bool):
+        lib.simPushBoolOntoStack(stack, value)
+    elif isinstance(value, int):
+        lib.simPushInt64OntoStack(stack, value)
+    elif isinstance(value, float):
+        lib.simPushDoubleOntoStack(stack, value)
+    elif isinstance(value, (str, bytes)):
+        data = value.encode() if isinstance(value, str) else value
+        lib.simPushStringOntoStack(stack, c_char_p(data), len(data))
+    else:
+        lib.simPushTableOntoStack(stack)
+        items = value.items() if isinstance(value, dict) else enumerate(value, 1)
+        for key, item in items:
+            push(stack, key)
+            push(stack, item)
+            lib.simInsertDataIntoStackTable(stack)
+
+
+def pop(stack):
+    """The value on top, which is taken off."""
+    kind = lib.simGetStackItemType(stack, -1)
+    if kind == 4:
+        return pop_table(stack)
+    value = None
+    if kind == 1:
+        number = c_double()
+        lib.simGetStackDoubleValue(stack, byref(number))
+        value = number.value
+    elif kind == 2:
+        flag = c_bool()
+        lib.simGetStackBoolValue(stack, byref(flag))
+        value = flag.value
+    elif kind == 3:
+        length = c_int()
+        address = lib.simGetStackStringValue(stack, byref(length))
+        value = text_of(address, length.value).decode()
+    elif kind == 9:
+        number = c_longlong()
+        lib.simGetStackInt64Value(stack, byref(number))
+        value = number.value
+    lib.simPopStackItem(stack, 1)
+    return value
+
+
+def pop_table(stack):
+    count = lib.simGetStackTableInfo(stack, 0)
+    below = lib.simGetStackSize(stack) - 1
+    lib.simUnfoldStackTable(stack)
+    entries = {}
+    while lib.simGetStackSize(stack) > below:
+        value = pop(stack)
+        entries[pop(stack)] = value
+    if count >= 0 and sorted(map(str, entries)) == sorted(str(key) for key in range(1, len(entries) + 1)):
+        return [entries[key] for key in range(1, len(entries) + 1)]
+    return entries
+
+
+def call(function, *args):
+    """The results of a function of scripts."""
+    stack = lib.simCreateStack()
+    for arg in args:
+        push(stack, arg)
+    result = lib.simCallScriptFunctionEx(-1, (function + "@lua").encode(), stack)
+    if result == -1:
+        error = text_of(lib.simGetLastError()).decode()
+        lib.simReleaseStack(stack)
+        raise RuntimeError(error)
+    results = []
+    while lib.simGetStackSize(stack) > 0:
+        results.insert(0, pop(stack))
+    lib.simReleaseStack(stack)
+    return results
+
+
+def functions_by_name():
+    handle = call("sim.createDummy", 0.1)[0]
+    call("sim.setObjectPosition", handle, [1.0, 2.0, 3.0])
+    assert call("sim.getObjectPosition", handle) == [[1.0, 2.0, 3.0]]
+    assert call("sim.getObjectAlias", handle) == ["dummy"] or call("sim.getObjectAlias", handle) == ["Dummy"]
+    try:
+        call("sim.getObjectPosition", 987654)
+    except RuntimeError as error:
+        assert "does not exist" in str(error), error
+    else:
+        raise AssertionError("an object that is not there has a position")
+
+
+def modules():
+    """`require` of the bridge; a module as functions and constants."""
+    call("require", "scriptClientBridge")
+    call("scriptClientBridge.require", "simIK")
+    described = call("scriptClientBridge.info", "simIK")[0]
+    assert described["createEnvironment"] == {"func": []} or described["createEnvironment"] == {"func": {}}, described["createEnvironment"]
+    sim = call("scriptClientBridge.info", "sim")[0]
+    assert sim["handle_world"] == {"const": -1} and "func" in sim["getObject"]
+    assert call("scriptClientBridge.getField", "sim.handle_all") == [-2]
+
+
+def types_of_functions():
+    folder = text_of(lib.simGetStringParam(STRING_PARAM_PYTHON_FOLDER)).decode()
+    sys.path.append(folder)
+    calltip = importlib.import_module("calltip")
+    line = call("sim.getApiInfo", -1, "sim.getObject")[0].split("\n")[0]
+    function = calltip.FuncDef.from_calltip(line)
+    assert [variable.type for variable in function.in_args] == ["string", "map"], line
+    assert [(variable.name, variable.type) for variable in function.out_args] == [("objectHandle", "int")]
+    line = call("sim.getApiInfo", -1, "simIK.createEnvironment")[0].split("\n")[0]
+    assert calltip.FuncDef.from_calltip(line).func_name == "simIK.createEnvironment", line
+    assert call("sim.getApiInfo", -1, "sim.nothing") == [""]
+    assert "sim.getObject" in call("sim.getApiFunc", -1, "sim.getObj")[0]
+
+
+def simulation(calls):
+    call("sim.startSimulation")
+    for _ in range(10):
+        lib.simLoop(None, 1)
+    time = call("sim.getSimulationTime")[0]
+    assert abs(time - 0.5) < 1e-9, time
+    call("sim.stopSimulation")
+    callback = ctypes.CFUNCTYPE(None)(lambda: calls.append(1))
+    for _ in range(6):
+        lib.simLoop(callback, 1)
+    assert call("sim.getSimulationState") == [0] and len(calls) == 6
+
+
+def session(failures):
+    try:
+        assert lib.simInitialize(ROOT.encode(), 0) == 1, text_of(lib.simGetLastError())
+        for check in (functions_by_name, modules, types_of_functions, lambda: simulation([])):
+            check()
+        assert lib.simGetExitRequest() == 0
+        call("sim.quitSimulator")
+        lib.simLoop(None, 0)
+        assert lib.simGetExitRequest() == 1
+        lib.simDeinitialize()
+    except BaseException as error:
+        failures.append(error)
+        lib.simDeinitialize()
+
+
+def main():
+    failures = []
+    # As with --true-headless: one thread does all.
+    session(failures)
+    assert not failures, failures
+    # Else the main thread waits for the end.
+    thread = threading.Thread(target=session, args=(failures,))
+    thread.start()
+    lib.simRunGui(0)
+    thread.join(60)
+    assert not failures and not thread.is_alive(), failures
+    print("ok")
+
+
+main()
