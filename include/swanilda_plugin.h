@@ -1673,11 +1673,13 @@ enum {
     X(double, simGetSimulationTime, "simGetSimulationTime_D", (void)) \
     X(int, simGetSimulationState, "simGetSimulationState", (void)) \
     X(double, simGetSimulationTimeStep, "simGetSimulationTimeStep_D", (void)) \
+    X(int, simSetSimulationTimeStep, "simSetSimulationTimeStep_D", (double a)) \
     X(int, simGetRealTimeSimulation, "simGetRealTimeSimulation", (void)) \
     X(double, simGetSystemTime, "simGetSystemTime_D", (void)) \
     X(int, simStartSimulation, "simStartSimulation", (void)) \
     X(int, simPauseSimulation, "simPauseSimulation", (void)) \
     X(int, simStopSimulation, "simStopSimulation", (void)) \
+    X(int, simAnnounceSceneContentChange, "simAnnounceSceneContentChange", (void)) \
     X(int, simLoadScene, "simLoadScene", (const char* a)) \
     X(int, simLoadModel, "simLoadModel", (const char* a)) \
     X(int, simSaveScene, "simSaveScene", (const char* a)) \
@@ -1804,7 +1806,44 @@ enum {
     X(int, simSerialRead, "simSerialRead", (int a, unsigned char* b, int nb)) \
     X(int, simSerialSend, "simSerialSend", (int a, const char* b, int nb)) \
     X(int, simQuitSimulator, "simQuitSimulator", (bool a)) \
-    X(char*, simGetApiInfo, "simGetApiInfo", (int a, const char* b))
+    X(int, simAddDrawingObjectItem, "simAddDrawingObjectItem_D", (int a, const void* b)) \
+    X(int, simAddDrawingObject, "simAddDrawingObject_D", (int a, double b, double c, int d, int e, const float* f, const void* g, const float* h, const float* i)) \
+    X(int, simAdjustView, "simAdjustView", (int a, int b, int c, const char* d)) \
+    X(int, simApplyTexture, "simApplyTexture_D", (int a, const void* b, int c, const void* d, const void* e, int f)) \
+    X(int, simCheckOctreePointOccupancy, "simCheckOctreePointOccupancy_D", (int a, int b, const void* c, int d, int* e, long long int* f, const void* g)) \
+    X(float*, simCheckVisionSensorEx, "simCheckVisionSensorEx", (int a, int b, bool c)) \
+    X(int, simConvexDecompose, "simConvexDecompose_D", (int a, int b, const int* c, const double* d)) \
+    X(int, simCreateHeightfieldShape, "simCreateHeightfieldShape_D", (int a, double b, int c, int d, double e, const void* f)) \
+    X(int, simCreateTexture, "simCreateTexture_D", (const char* a, int b, const double* c, const double* d, const void* e, int f, int* g, int* h, const void* i)) \
+    X(int, simExportMesh, "simExportMesh_D", (int a, const char* b, int c, double d, int e, const void* f, const void* g, const void* h, const void* i, const void* j, const void* k)) \
+    X(int, simExtCallScriptFunction, "simExtCallScriptFunction_D", (int a, const char* b, const void* c, int d, const void* e, int f, const void* g, int h, const void* i, int j, void* k, void* l, void* m, void* n, void* o, void* p, void* q, void* r)) \
+    X(int, simFloatingViewAdd, "simFloatingViewAdd_D", (double a, double b, double c, double d, int e)) \
+    X(int, simFloatingViewRemove, "simFloatingViewRemove", (int a)) \
+    X(char*, simGetApiInfo, "simGetApiInfo", (int a, const char* b)) \
+    X(int, simGetDecimatedMesh, "simGetDecimatedMesh_D", (const void* a, int b, const void* c, int d, double** e, int* f, int** g, int* h, double i, int j, const void* k)) \
+    X(int, simGetLightParameters, "simGetLightParameters_D", (int a, const void* b, double* c, double* d)) \
+    X(int, simGetNavigationMode, "simGetNavigationMode", (void)) \
+    X(void*, simGetOctreeVoxels, "simGetOctreeVoxels_D", (int a, int* b, const void* c)) \
+    X(int, simGetPage, "simGetPage", (void)) \
+    X(void*, simGetPointCloudPoints, "simGetPointCloudPoints_D", (int a, int* b, const void* c)) \
+    X(int, simImportMesh, "simImportMesh_D", (int a, const char* b, int c, double d, double e, void* f, void* g, void* h, void* i, void* j, void* k)) \
+    X(int, simImportShape, "simImportShape_D", (int a, const char* b, int c, double d, double e)) \
+    X(int, simInsertObjectIntoOctree, "simInsertObjectIntoOctree", (int a, int b, int c, const void* d, int e, const void* f)) \
+    X(int, simInsertObjectIntoPointCloud, "simInsertObjectIntoPointCloud_D", (int a, int b, int c, double d, const void* e, const void* f)) \
+    X(int, simInsertPointsIntoPointCloud, "simInsertPointsIntoPointCloud_D", (int a, int b, const void* c, int d, const void* e, const void* f)) \
+    X(int, simInsertVoxelsIntoOctree, "simInsertVoxelsIntoOctree_D", (int a, int b, const void* c, int d, const void* e, const void* f, const void* g)) \
+    X(int, simIntersectPointsWithPointCloud, "simIntersectPointsWithPointCloud_D", (int a, int b, const void* c, int d, double e, const void* f)) \
+    X(int, simIsDeprecated, "simIsDeprecated", (const char* a)) \
+    X(char*, simReadTexture, "simReadTexture", (int a, int b, int c, int d, int e, int f)) \
+    X(int, simRefreshDialogs, "simRefreshDialogs", (int a)) \
+    X(int, simRemoveDrawingObject, "simRemoveDrawingObject", (int a)) \
+    X(int, simRemovePointsFromPointCloud, "simRemovePointsFromPointCloud_D", (int a, int b, const void* c, int d, double e, const void* f)) \
+    X(int, simRemoveVoxelsFromOctree, "simRemoveVoxelsFromOctree_D", (int a, int b, const void* c, int d, const void* e)) \
+    X(int, simSaveImage, "simSaveImage", (const void* a, const int* b, int c, const char* d, int e, const void* f)) \
+    X(int, simSetLightParameters, "simSetLightParameters", (int a, int b, const void* c, const float* d, const float* e)) \
+    X(int, simSetNavigationMode, "simSetNavigationMode", (int a)) \
+    X(int, simSetPage, "simSetPage", (int a)) \
+    X(int, simWriteTexture, "simWriteTexture_D", (int a, int b, const void* c, int d, int e, int f, int g, double h))
 
 #define SWANILDA_DECLARE(result, name, symbol, parameters) extern result (*name) parameters;
 SWANILDA_FUNCTIONS(SWANILDA_DECLARE)

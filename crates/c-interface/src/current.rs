@@ -148,10 +148,11 @@ impl Frame {
     pub(super) fn lend(
         &self,
         symbol: &'static str,
+        ty: char,
         result: Option<Data>,
         length: &mut usize,
     ) -> i64 {
-        let address = self.keep('F', result, length);
+        let address = self.keep(ty, result, length);
         let before = self.shared.lent.borrow_mut().insert(symbol, address);
         if let Some(before) = before.and_then(|before| usize::try_from(before).ok()) {
             self.shared.buffers.borrow_mut().release(before);

@@ -18,6 +18,8 @@ const MAX_ITEMS: usize = Data::MAX_ITEMS;
 struct Bound {
     row: Symbol,
     target: Target,
+    /// Whether the numbers of lists are doubles.
+    is_double: bool,
 }
 
 enum Target {
@@ -43,12 +45,13 @@ pub struct Interface(Vec<Bound>);
 /// start and end a simulator.
 pub fn interface_41(launch: &[(&'static str, Function)]) -> Interface {
     let own = [old::FUNCTIONS.concat(), launch.to_vec()].concat();
-    Interface::new(include_str!("symbols_41.tsv"), &own)
+    Interface::new(include_str!("symbols_41.tsv"), &own, false)
 }
 
 /// The same of CoppeliaSim 4.10, whose numbers have double precision: what plugins call, and `launch`.
 pub fn interface_410(launch: &[(&'static str, Function)]) -> Interface {
-    Interface::new(include_str!("symbols_410.tsv"), launch)
+    let own = [old::FUNCTIONS.concat(), launch.to_vec()].concat();
+    Interface::new(include_str!("symbols_410.tsv"), &own, true)
 }
 
 /// What plugins call: the interface of CoppeliaSim 4.10.
@@ -59,7 +62,7 @@ pub fn plugin_interface() -> &'static Interface {
 
 impl Interface {
     /// The interface of a table of symbols. Its functions are in `own`, in this crate, or those of scripts.
-    pub fn new(table: &'static str, own: &[(&'static str, Function)]) -> Self {
+    fn new(table: &'static str, own: &[(&'static str, Function)], is_double: bool) -> Self {
         let target = |row: &Symbol| {
             let own = own.iter().find(|(name, _)| *name == row.function);
             match own
@@ -77,6 +80,7 @@ impl Interface {
             rows.map(|row| Bound {
                 target: target(&row),
                 row,
+                is_double,
             })
             .collect(),
         )
@@ -132,6 +136,8 @@ pub struct Call<'a> {
     pub args: Vec<Data>,
     /// As C passed them.
     pub(super) values: &'a [Value],
+    /// Whether the numbers of lists are doubles.
+    pub(super) is_double: bool,
 }
 
 /// Calls from threads of the plugin's own, or after the simulator has ended.
@@ -160,6 +166,7 @@ fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, Str
             frame,
             args,
             values,
+            is_double: bound.is_double,
         })?,
         Target::Api(name) => frame.host.call(name, &ordered(row, args))?,
     };
@@ -269,7 +276,8 @@ fn write(
             1
         }
         'S' | 'P' | 'I' | 'D' | 'F' => frame.keep(row.result, results.next(), &mut length),
-        'V' => frame.lend(row.symbol, results.next(), &mut length),
+        'V' => frame.lend(row.symbol, 'F', results.next(), &mut length),
+        'W' => frame.lend(row.symbol, 'D', results.next(), &mut length),
         _ => results.next().map_or(1, |first| integer(&first)),
     };
     let mut places = row

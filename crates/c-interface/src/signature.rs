@@ -5,8 +5,8 @@
 //! A row has four columns: symbol, result, parameters, function.
 //! - Results: `v` nothing; `k` 1 if the call succeeded; `i` and `l` the first result as an integer, 1 without one; `r` the same, and the
 //!   parameters get the others; `q` whether there is a result; `d` and `f` a number, `double` or `float`; `S`, `P`, `I`, `D`, `F` bytes,
-//!   memory, integers, numbers or floats that the caller releases; `V` memory that the caller does not release, valid until the next
-//!   call of the function. Where the call fails: -1, -1.0 or NULL.
+//!   memory, integers, numbers or floats that the caller releases; `V` and `W` floats and doubles that the caller does not release,
+//!   valid until the next call of the function. Where the call fails: -1, -1.0 or NULL.
 //! - Parameters: `i` int, `l` long long, `d` double, `b` bool, `B` an int that means a bool, `s` text (`t#`: also where its length
 //!   is 0), `p` an address (`>p`: the function writes there), `c` a callback. `d3`
 //!   points to three numbers, `d#` to as many as the next parameter says; `u`, `f` are bytes and floats. `>` before them: the host
@@ -105,7 +105,7 @@ impl Symbol {
             'f' => "float",
             'l' => "long long int",
             'S' => "char*",
-            'P' | 'V' => "void*",
+            'P' | 'V' | 'W' => "void*",
             'I' => "int*",
             'D' => "double*",
             'F' => "float*",
@@ -115,7 +115,7 @@ impl Symbol {
 
     /// Whether the result is an address.
     pub fn returns_pointer(&self) -> bool {
-        matches!(self.result, 'S' | 'P' | 'I' | 'D' | 'F' | 'V')
+        matches!(self.result, 'S' | 'P' | 'I' | 'D' | 'F' | 'V' | 'W')
     }
 
     /// The parameters in C, with the names `a`, `b`, ... and `n` before the name for counts.

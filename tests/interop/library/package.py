@@ -145,6 +145,27 @@ def types_of_functions():
     assert "sim.getObject" in call("sim.getApiFunc", -1, "sim.getObj")[0]
 
 
+def lists_of_doubles():
+    """Functions of plugins whose lists have double precision: voxels, terrain, drawings, meshes in files."""
+    doubles = lambda *numbers: (c_double * len(numbers))(*numbers)
+    lib.simCreateOctree_D.argtypes = [c_double, c_int, c_double, c_void_p]
+    lib.simGetOctreeVoxels_D.restype = ctypes.POINTER(c_double)
+    octree, count = lib.simCreateOctree_D(0.1, 0, 1.0, None), c_int()
+    assert lib.simInsertVoxelsIntoOctree_D(octree, 0, doubles(0.05, 0.05, 1.05), 1, None, None, None) == 1
+    voxels = lib.simGetOctreeVoxels_D(octree, byref(count), None)
+    assert count.value == 1 and all(abs(a - b) < 1e-12 for a, b in zip(voxels[0:3], (0.05, 0.05, 1.05))), voxels[0:3]
+    lib.simCreateHeightfieldShape_D.argtypes = [c_int, c_double, c_int, c_int, c_double, c_void_p]
+    terrain = lib.simCreateHeightfieldShape_D(0, 0.0, 2, 2, 1.0, doubles(0, 0, 0, 0.5))
+    assert call("sim.getObjectType", terrain) == [0]
+    lib.simAddDrawingObject_D.argtypes = [c_int, c_double, c_double] + [c_int] * 2 + [c_void_p] * 4
+    drawing = lib.simAddDrawingObject_D(0, 1.0, 0.0, -1, 10, None, None, None, None)
+    assert lib.simAddDrawingObjectItem_D(drawing, doubles(1, 2, 3)) == 1
+    lib.simRemoveDrawingObject(drawing)
+    lib.simSetSimulationTimeStep_D(c_double(0.1))
+    assert abs(call("sim.getSimulationTimeStep")[0] - 0.1) < 1e-12
+    lib.simSetSimulationTimeStep_D(c_double(0.05))
+
+
 def simulation(calls):
     call("sim.startSimulation")
     for _ in range(10):
@@ -161,7 +182,7 @@ def simulation(calls):
 def session(failures):
     try:
         assert lib.simInitialize(ROOT.encode(), 0) == 1, text_of(lib.simGetLastError())
-        for check in (functions_by_name, modules, types_of_functions, lambda: simulation([])):
+        for check in (functions_by_name, modules, types_of_functions, lists_of_doubles, lambda: simulation([])):
             check()
         assert lib.simGetExitRequest() == 0
         call("sim.quitSimulator")

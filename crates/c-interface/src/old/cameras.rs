@@ -78,7 +78,7 @@ fn size(call: &Call<'_>) -> Result<usize, String> {
 }
 
 fn set_image(call: &Call<'_>) -> Answer {
-    let image = call.floats_at(1, size(call)?)?;
+    let image = call.numbers_at(1, size(call)?)?;
     let args = [Data::Int(call.integer_at(0)), image];
     call.frame.host().call("sim.setVisionSensorImage", &args)
 }

@@ -39,11 +39,11 @@ fn configuration(call: &Call<'_>) -> Answer {
         call.integers_at(2, joints)?,
         Data::Float(call.number_at(3)),
         Data::Int(call.integer_at(4)),
-        call.optional_floats_at(6, 4)?,
+        call.optional_numbers_at(6, 4)?,
         pairs(call, 7)?,
         call.optional_integers_at(9, joints)?,
-        call.optional_floats_at(10, joints)?,
-        call.optional_floats_at(11, joints)?,
+        call.optional_numbers_at(10, joints)?,
+        call.optional_numbers_at(11, joints)?,
     ];
     let results = call.frame.host().call("sim.getConfigForTipPose", &args)?;
     let values = results.first().map(singles).unwrap_or_default();

@@ -26,7 +26,7 @@ fn import(call: &Call<'_>) -> Answer {
         _ => &[],
     };
     let (vertices, indices) = (lists(0), lists(1));
-    write_lists(call, 5, 'F', vertices);
+    write_lists(call, 5, call.number_letter(), vertices);
     write_lists(call, 7, 'I', indices);
     call.write_at(9, &[0_usize]);
     let names: Vec<Vec<u8>> = (0..vertices.len())
@@ -57,11 +57,7 @@ fn write_lists(call: &Call<'_>, place: usize, ty: char, lists: &[Data]) {
 fn export(call: &Call<'_>) -> Answer {
     let count = call.count_at(4)?;
     let lengths = |place| call.lengths_at(place, count);
-    let vertices: Vec<Data> = call
-        .lists_at::<f32>(5, &lengths(6)?)?
-        .into_iter()
-        .map(|list| list.into_iter().map(f64::from).collect::<Vec<_>>().into())
-        .collect();
+    let vertices = call.number_lists_at(5, &lengths(6)?)?;
     let indices: Vec<Data> = call
         .lists_at::<i32>(7, &lengths(8)?)?
         .into_iter()
@@ -75,7 +71,7 @@ fn export(call: &Call<'_>) -> Answer {
 /// Parameters: vertices, count of their numbers, indices, their count, where the results go, the fraction that remains.
 fn decimate(call: &Call<'_>) -> Answer {
     let args = [
-        call.floats_at(0, call.count_at(1)?)?,
+        call.numbers_at(0, call.count_at(1)?)?,
         call.integers_at(2, call.count_at(3)?)?,
         Data::Float(call.number_at(8)),
     ];
@@ -87,7 +83,7 @@ fn decimate(call: &Call<'_>) -> Answer {
 fn heightfield(call: &Call<'_>) -> Answer {
     let points = call.count_at(2)?.saturating_mul(call.count_at(3)?);
     let mut args = call.args[..5].to_vec();
-    args.push(call.floats_at(5, points)?);
+    args.push(call.numbers_at(5, points)?);
     call.frame.host().call("sim.createHeightfieldShape", &args)
 }
 
@@ -99,7 +95,7 @@ fn apply_texture(call: &Call<'_>) -> Answer {
     let bytes = side(0).saturating_mul(side(1)).saturating_mul(channels);
     let args = [
         Data::Int(call.integer_at(0)),
-        call.floats_at(1, call.count_at(2)?)?,
+        call.numbers_at(1, call.count_at(2)?)?,
         Data::Text(call.list_at(3, bytes)?),
         call.integers_at(4, 2)?,
         Data::Int(call.integer_at(5)),
@@ -113,7 +109,7 @@ fn apply_texture(call: &Call<'_>) -> Answer {
 /// resolution.
 fn create_texture(call: &Call<'_>) -> Answer {
     let mut args = call.args[..4].to_vec();
-    args.push(call.optional_floats_at(4, 3)?);
+    args.push(call.optional_numbers_at(4, 3)?);
     args.push(Data::Int(call.integer_at(5)));
     args.push(call.optional_integers_at(7, 2)?);
     call.frame.host().call("sim.createTexture", &args)

@@ -76,20 +76,52 @@ impl Call<'_> {
         Ok(self.optional_at(place, count)?.map_or(Data::Nil, integers))
     }
 
-    /// `count` floats as scripts get them.
-    ///
-    /// # Errors
-    /// As [`list_at`](Self::list_at).
-    pub(super) fn floats_at(&self, place: usize, count: usize) -> Result<Data, String> {
-        self.list_at(place, count).map(floats)
-    }
-
-    /// The same; nil for NULL.
+    /// `count` numbers in the precision of the interface, as scripts get them; nil for NULL.
     ///
     /// # Errors
     /// As [`optional_at`](Self::optional_at).
-    pub(super) fn optional_floats_at(&self, place: usize, count: usize) -> Result<Data, String> {
-        Ok(self.optional_at(place, count)?.map_or(Data::Nil, floats))
+    pub(super) fn optional_numbers_at(&self, place: usize, count: usize) -> Result<Data, String> {
+        Ok(if self.is_double {
+            let numbers: Option<Vec<f64>> = self.optional_at(place, count)?;
+            numbers.map_or(Data::Nil, Data::from)
+        } else {
+            self.optional_at(place, count)?.map_or(Data::Nil, floats)
+        })
+    }
+
+    /// The same, where NULL is a mistake unless nothing is needed.
+    ///
+    /// # Errors
+    /// As [`list_at`](Self::list_at).
+    pub(super) fn numbers_at(&self, place: usize, count: usize) -> Result<Data, String> {
+        if self.is_double {
+            self.list_at::<f64>(place, count).map(Data::from)
+        } else {
+            self.list_at(place, count).map(floats)
+        }
+    }
+
+    /// The same for a list of lists.
+    ///
+    /// # Errors
+    /// As [`lists_at`](Self::lists_at).
+    pub(super) fn number_lists_at(
+        &self,
+        place: usize,
+        lengths: &[usize],
+    ) -> Result<Vec<Data>, String> {
+        Ok(if self.is_double {
+            let lists = self.lists_at::<f64>(place, lengths)?;
+            lists.into_iter().map(Data::from).collect()
+        } else {
+            let lists = self.lists_at(place, lengths)?;
+            lists.into_iter().map(floats).collect()
+        })
+    }
+
+    /// The letter of a list of numbers in the precision of the interface.
+    pub(super) fn number_letter(&self) -> char {
+        if self.is_double { 'D' } else { 'F' }
     }
 
     /// The texts of a list of addresses.

@@ -25,7 +25,7 @@ fn call_with_tables(call: &Call<'_>) -> Answer {
         Data::Text(call.bytes(1)?.to_vec()),
         Data::Int(call.integer_at(0)),
         call.integers_at(2, counts[0])?,
-        call.floats_at(4, counts[1])?,
+        call.numbers_at(4, counts[1])?,
         Data::Array(texts.into_iter().map(Data::Text).collect()),
         Data::Text(call.list_at(8, counts[3])?),
     ];
@@ -34,7 +34,7 @@ fn call_with_tables(call: &Call<'_>) -> Answer {
         results.map_err(|reason| format!("{}: {reason}", call.text(1).unwrap_or_default()))?;
     let mut results = results.into_iter();
     write_list(call, 10, 'I', results.next());
-    write_list(call, 12, 'F', results.next());
+    write_list(call, 12, call.number_letter(), results.next());
     write_texts(call, 14, results.next());
     write_list(call, 16, 'S', results.next());
     Ok(vec![Data::Int(1)])

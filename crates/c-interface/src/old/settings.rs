@@ -105,7 +105,7 @@ fn add_drawing_item(call: &Call<'_>) -> Answer {
             .host()
             .call("swanilda.library.drawingItemSize", &[drawing])?;
         let size = size.first().and_then(Data::as_f64).unwrap_or_default();
-        args.push(call.floats_at(1, numbers::index(size))?);
+        args.push(call.numbers_at(1, numbers::index(size))?);
     }
     call.frame.host().call("sim.addDrawingObjectItem", &args)
 }

@@ -44,7 +44,7 @@ fn tolerance(call: &Call<'_>) -> Data {
 /// Parameters: object, options, points or NULL for all, their count; what else scripts pass.
 fn points(call: &Call<'_>, function: &str, more: &[Data]) -> Answer {
     let mut args = vec![Data::Int(call.integer_at(0)), Data::Int(call.integer_at(1))];
-    args.push(call.optional_floats_at(2, call.count_at(3)?.saturating_mul(3))?);
+    args.push(call.optional_numbers_at(2, call.count_at(3)?.saturating_mul(3))?);
     args.extend_from_slice(more);
     call.frame.host().call(function, &args)
 }
