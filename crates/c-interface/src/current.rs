@@ -116,11 +116,12 @@ impl Frame {
     }
 
     pub(super) fn note_failure(&self, row: &Symbol, reason: String) {
+        let caller = self.plugin.as_ref().map_or("program", |_| "plugin");
         if row.is_missing() && self.shared.missing.borrow_mut().insert(row.symbol) {
             self.host.log(
                 self.origin(),
                 ERRORS,
-                &format!("call of {}: {reason}", row.symbol),
+                &format!("the {caller} calls {}: {reason}", row.symbol),
             );
         }
         self.set_last_error(format!("{}: {reason}", row.symbol));

@@ -131,7 +131,7 @@ fn contact(call: &Call<'_>) -> Answer {
 
 /// The value, and whether there is one.
 fn engine(call: &Call<'_>, function: &str) -> Answer {
-    if call.int(2)? != 0 {
+    if *call.arg(2) != Data::Nil {
         return Err("an object must be named by its handle".into());
     }
     let mut results = match call.frame.host.call(function, &call.args[..2]) {
@@ -170,7 +170,7 @@ fn names(call: &Call<'_>, function: &str) -> Answer {
 }
 
 fn property_name(call: &Call<'_>) -> Answer {
-    if call.int(2)? != 0 {
+    if *call.arg(2) != Data::Nil {
         return Err("options are not implemented in Swanilda".into());
     }
     call.frame.host.call("sim.getPropertyName", &call.args[..2])
