@@ -391,10 +391,10 @@ function sim.checkCollisionEx(entity1Handle, entity2Handle) end
 ---@return integer[] objectHandlePair the objects that are closest; -1 for none
 function sim.checkDistance(entity1Handle, entity2Handle, threshold) end
 
---- Computes a group of inverse kinematics of V-REP without moving its joints.
+--- Computes a group of inverse kinematics of V-REP without moving its joints. Its Jacobian is that of sim.getIkGroupMatrix then.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
----@param jointHandles integer[] joints whose positions are wanted
+---@param jointHandles integer[] joints that move, in whatever mode they are; the others stay, but those that depend on joints
 ---@param jointOptions? integer[] of no use: dependent joints are recognised
 ---@return integer ikCalculationResult 0 if it was not performed, 1 if it succeeded, 2 if it failed
 ---@return number[] jointValues where the joints would go
@@ -845,7 +845,7 @@ function sim.followPath(object, path, what, start, velocity, acceleration) end
 --- Postures on the straight line from the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
----@param jointHandles integer[] joints whose positions are wanted
+---@param jointHandles integer[] joints that move, in whatever mode they are; the others stay, but those that depend on joints
 ---@param ptCnt integer how many postures, both ends among them
 ---@param collisionPairs? integer[] entities, two by two, that must not collide; the second may be sim.handle_all
 ---@param jointOptions? integer[] of no use: dependent joints are recognised
@@ -1008,7 +1008,7 @@ function sim.getConfigDistance(a, b, metric, types) end
 --- Searches a posture that brings the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
----@param jointHandles integer[] joints whose positions are wanted
+---@param jointHandles integer[] joints that move, in whatever mode they are; the others stay, but those that depend on joints
 ---@param distanceThreshold number not used: starts are not limited
 ---@param maxTimeInMs integer counted as 100 iterations each, as is a check for collisions
 ---@param metric? number[] not used
@@ -1202,7 +1202,7 @@ function sim.getHandleProperty(target, propertyName, options) end
 ---@return integer ikGroupHandle its handle
 function sim.getIkGroupHandle(ikGroupName) end
 
---- The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
+--- The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian, sim.checkIkGroup or sim.handleIkGroup.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
 ---@param options integer 0

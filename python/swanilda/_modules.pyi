@@ -2392,10 +2392,10 @@ class _sim:
         threshold: larger distances do not count, metres; 0 for no limit
         """
     def checkIkGroup(self, ikGroupHandle: int, jointHandles: Sequence[int] | _Array, jointOptions: Sequence[int] | _Array | None = ..., /) -> tuple[int, list[float]]:
-        """Computes a group of inverse kinematics of V-REP without moving its joints.
+        """Computes a group of inverse kinematics of V-REP without moving its joints. Its Jacobian is that of sim.getIkGroupMatrix then.
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group
-        jointHandles: joints whose positions are wanted
+        jointHandles: joints that move, in whatever mode they are; the others stay, but those that depend on joints
         jointOptions: of no use: dependent joints are recognised
         """
     def checkOctreePointOccupancy(self, octreeHandle: int, options: int, points: Sequence[float] | _Array, /) -> tuple[int, int, int, int]:
@@ -2772,7 +2772,7 @@ class _sim:
         """Postures on the straight line from the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group
-        jointHandles: joints whose positions are wanted
+        jointHandles: joints that move, in whatever mode they are; the others stay, but those that depend on joints
         ptCnt: how many postures, both ends among them
         collisionPairs: entities, two by two, that must not collide; the second may be sim.handle_all
         jointOptions: of no use: dependent joints are recognised
@@ -2906,7 +2906,7 @@ class _sim:
         """Searches a posture that brings the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group
-        jointHandles: joints whose positions are wanted
+        jointHandles: joints that move, in whatever mode they are; the others stay, but those that depend on joints
         distanceThreshold: not used: starts are not limited
         maxTimeInMs: counted as 100 iterations each, as is a check for collisions
         metric: not used
@@ -3065,7 +3065,7 @@ class _sim:
         ikGroupName: its name; with `@silentError`: -1 if there is none
         """
     def getIkGroupMatrix(self, ikGroupHandle: int, options: int, /) -> tuple[list[float], list[int]]:
-        """The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
+        """The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian, sim.checkIkGroup or sim.handleIkGroup.
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group
         options: 0

@@ -7,8 +7,9 @@ use kinematics::{
 
 use super::Result;
 use super::{SceneElement, SceneLinks};
+use scene::joint::{self, Joint};
 use scene::tree::ik_groups::{IkElement, IkGroup, Jacobian};
-use scene::{Handle, Scene, SceneError, joint};
+use scene::{Handle, Scene, SceneError};
 
 /// Largest number of iterations: more would not end in a reasonable time.
 const MAX_ITERATIONS: i32 = 100_000;
@@ -50,9 +51,26 @@ impl GroupCopy {
     /// # Errors
     /// When an object is gone, or tip or target is a joint.
     pub fn new(scene: &Scene, group: &IkGroup, seed: u64) -> Result<Self> {
+        Self::with_joints(scene, group, seed, |_, joint| is_in_ik_mode(joint))
+    }
+
+    /// The given joints move, in whatever mode they are in the scene, and no others but those that depend on joints.
+    ///
+    /// # Errors
+    /// When an object is gone, or tip or target is a joint.
+    pub fn moving(scene: &Scene, group: &IkGroup, seed: u64, joints: &[Handle]) -> Result<Self> {
+        Self::with_joints(scene, group, seed, |handle, _| joints.contains(&handle))
+    }
+
+    fn with_joints(
+        scene: &Scene,
+        group: &IkGroup,
+        seed: u64,
+        moves: impl Fn(Handle, &Joint) -> bool,
+    ) -> Result<Self> {
         let (mut env, mut links) = (Environment::new(seed), SceneLinks::default());
         let (id, complete) = links.add_group(scene, &mut env, group)?;
-        links.keep_other_joints(scene, &mut env)?;
+        links.keep_other_joints(scene, &mut env, moves)?;
         Ok(Self {
             env,
             links,
@@ -218,7 +236,7 @@ pub fn export(scene: &Scene) -> Result<Vec<u8>> {
     for (_, group) in scene.ik_groups().iter() {
         links.add_group(scene, &mut env, group)?;
     }
-    links.keep_other_joints(scene, &mut env)?;
+    links.keep_other_joints(scene, &mut env, |_, joint| is_in_ik_mode(joint))?;
     Ok(env.to_bytes()?)
 }
 
@@ -275,21 +293,27 @@ impl SceneLinks {
         Ok(())
     }
 
-    /// Makes the copies of joints passive that are not in the old mode of inverse kinematics.
-    fn keep_other_joints(&self, scene: &Scene, env: &mut Environment) -> Result<()> {
+    /// Makes the copies of joints passive that neither move nor depend on others.
+    fn keep_other_joints(
+        &self,
+        scene: &Scene,
+        env: &mut Environment,
+        moves: impl Fn(Handle, &Joint) -> bool,
+    ) -> Result<()> {
         for &(handle, id) in &self.joints {
             let joint = scene.object(handle)?.joint()?;
             let copy = env.joint_mut(id)?;
             (copy.weight, copy.max_step) = (joint.ik.weight, joint.ik.max_step);
-            if !matches!(
-                joint.mode,
-                joint::JointMode::InverseKinematics | joint::JointMode::Dependent
-            ) {
+            if joint.mode != joint::JointMode::Dependent && !moves(handle, joint) {
                 copy.mode = JointMode::Passive;
             }
         }
         Ok(())
     }
+}
+
+fn is_in_ik_mode(joint: &Joint) -> bool {
+    joint.mode == joint::JointMode::InverseKinematics
 }
 
 fn flags(group: &IkGroup) -> GroupFlags {

@@ -63,7 +63,7 @@ local function solvers()
 end
 
 local function jacobian()
-    print('none yet', select('#', simGetIkGroupMatrix(group, 0)))
+    print('of the last check', select('#', simGetIkGroupMatrix(group, 0)))
     print('computed', simComputeJacobian(group, 0))
     local matrix, size = simGetIkGroupMatrix(group, 0)
     print('size', size[1], size[2], #matrix)

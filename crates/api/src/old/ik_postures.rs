@@ -12,6 +12,7 @@ use format::scene_file::write_whole;
 use ik::groups::{GroupCopy, IkResult, export};
 use perception::entity::Entity;
 use scene::numbers;
+use scene::tree::ik_groups::Jacobian;
 use scene::{Handle, Scene, SceneError};
 use script::Number;
 
@@ -47,6 +48,8 @@ struct Task {
 }
 
 impl Task {
+    /// The joints move in whatever mode they are; others of the group stay.
+    ///
     /// # Errors
     /// When something does not exist, or the group cannot be copied.
     fn new(cx: &Cx, handle: Number, joints: &[i64], pairs: &[i64]) -> Result<Self> {
@@ -54,11 +57,11 @@ impl Task {
         let searches = cx.module_state::<Searches>();
         searches.0.set(searches.0.get().wrapping_add(1));
         let seed = (u64::from(cx.options().seed) << 32) | (searches.0.get() & 0xffff_ffff);
-        let copy = GroupCopy::new(&scene, group(&scene, handle)?, seed)?;
         let joints = joints
             .iter()
             .map(|raw| Handle::from_raw(*raw).ok_or(SceneError::NoSuchObject));
         let joints = joints.collect::<std::result::Result<Vec<_>, _>>()?;
+        let copy = GroupCopy::moving(&scene, group(&scene, handle)?, seed, &joints)?;
         copy.config(&scene, &joints)?;
         let pairs = pairs
             .chunks_exact(2)
@@ -106,16 +109,16 @@ fn for_joints<T>(list: Option<Vec<T>>, joints: &[i64]) -> Result<Option<Vec<T>>>
     }
 }
 
-/// Computes a group of inverse kinematics of V-REP without moving its joints.
+/// Computes a group of inverse kinematics of V-REP without moving its joints. Its Jacobian is that of sim.getIkGroupMatrix then.
 ///
 /// @param ikGroupHandle the group
-/// @param jointHandles joints whose positions are wanted
+/// @param jointHandles joints that move, in whatever mode they are; the others stay, but those that depend on joints
 /// @param jointOptions of no use: dependent joints are recognised
 /// @return ikCalculationResult 0 if it was not performed, 1 if it succeeded, 2 if it failed
 /// @return jointValues where the joints would go
 #[api("sim.checkIkGroup")]
 fn check_ik_group(
-    cx: &Cx,
+    cx: &mut Cx,
     ik_group_handle: Number,
     joint_handles: Vec<i64>,
     #[default(None)] joint_options: Option<Vec<i64>>,
@@ -123,13 +126,15 @@ fn check_ik_group(
     for_joints(joint_options, &joint_handles)?;
     let mut task = Task::new(cx, ik_group_handle, &joint_handles, &[])?;
     let result = task.copy.solve()?;
+    let jacobian = task.copy.jacobian(false)?;
+    store(&mut cx.scene_mut(), ik_group_handle, jacobian)?;
     Ok((result as i64, task.config(cx)?))
 }
 
 /// Searches a posture that brings the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
 ///
 /// @param ikGroupHandle the group
-/// @param jointHandles joints whose positions are wanted
+/// @param jointHandles joints that move, in whatever mode they are; the others stay, but those that depend on joints
 /// @param distanceThreshold not used: starts are not limited
 /// @param maxTimeInMs counted as 100 iterations each, as is a check for collisions
 /// @param metric not used
@@ -192,7 +197,7 @@ fn search(cx: &mut Cx, task: &mut Task, iterations: u32) -> Result<Option<Vec<f6
 /// Postures on the straight line from the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
 ///
 /// @param ikGroupHandle the group
-/// @param jointHandles joints whose positions are wanted
+/// @param jointHandles joints that move, in whatever mode they are; the others stay, but those that depend on joints
 /// @param ptCnt how many postures, both ends among them
 /// @param collisionPairs entities, two by two, that must not collide; the second may be sim.handle_all
 /// @param jointOptions of no use: dependent joints are recognised
@@ -247,16 +252,20 @@ fn compute_jacobian(cx: &mut Cx, ik_group_handle: Number, options: Number) -> Re
         let scene = cx.scene();
         GroupCopy::new(&scene, group(&scene, ik_group_handle)?, 0)?.jacobian(options.0 & 1 == 1)?
     };
-    let mut scene = cx.scene_mut();
-    let group = scene
-        .ik_groups_mut()
-        .get_mut(ik_group_handle.0)
-        .ok_or(SceneError::NoSuchIkGroup)?;
-    group.jacobian = jacobian;
-    Ok(group.jacobian.is_some().into())
+    let is_computed = jacobian.is_some().into();
+    store(&mut cx.scene_mut(), ik_group_handle, jacobian)?;
+    Ok(is_computed)
 }
 
-/// The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
+/// Keeps a Jacobian for `sim.getIkGroupMatrix`.
+fn store(scene: &mut Scene, group: Number, jacobian: Option<Jacobian>) -> Result<()> {
+    let groups = scene.ik_groups_mut();
+    let group = groups.get_mut(group.0).ok_or(SceneError::NoSuchIkGroup)?;
+    group.jacobian = jacobian;
+    Ok(())
+}
+
+/// The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian, sim.checkIkGroup or sim.handleIkGroup.
 ///
 /// @param ikGroupHandle the group
 /// @param options 0
