@@ -134,9 +134,13 @@ impl Scene {
             .collect()
     }
 
-    /// A new object with the given shape and the place, name, flags and children of `old`.
+    /// A new object with the given shape and the place, names, flags and children of `old`, whose name from before aliases changes.
     fn replace_shape(&mut self, old: Handle, shape: Shape) -> SceneResult<Handle> {
         let new = self.add_beside(old, shape)?;
+        let name = self.object(old)?.old_name().to_owned();
+        let given = self.object(new)?.old_name().to_owned();
+        self.set_old_name(old, &given)?;
+        self.set_old_name(new, &name)?;
         for child in self.object(old)?.children().to_vec() {
             self.set_parent(child, Some(new), true)?;
         }

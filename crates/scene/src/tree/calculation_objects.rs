@@ -95,9 +95,10 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
     }
 
     /// Removes those of an entity that is removed.
-    fn forget(&mut self, removed: &BTreeSet<Handle>) {
+    fn forget(&mut self, removed: &BTreeSet<Handle>, collections: &BTreeSet<i64>) {
         let is_removed = |entity: &i64| {
-            Handle::from_raw(*entity).is_some_and(|handle| removed.contains(&handle))
+            collections.contains(entity)
+                || Handle::from_raw(*entity).is_some_and(|handle| removed.contains(&handle))
         };
         self.by_handle
             .retain(|_, object| !object.entities.iter().any(is_removed));
@@ -125,10 +126,14 @@ impl Scene {
         &mut self.distance_objects
     }
 
-    /// Removes collision and distance objects of objects that are removed, and results that name them.
-    pub(crate) fn forget_calculations(&mut self, removed: &BTreeSet<Handle>) {
-        self.collision_objects.forget(removed);
-        self.distance_objects.forget(removed);
+    /// Removes collision and distance objects of objects and collections that are removed, and results that name objects.
+    pub(crate) fn forget_calculations(
+        &mut self,
+        removed: &BTreeSet<Handle>,
+        collections: &BTreeSet<i64>,
+    ) {
+        self.collision_objects.forget(removed, collections);
+        self.distance_objects.forget(removed, collections);
         for object in self.collision_objects.by_handle.values_mut() {
             if object
                 .result
@@ -172,7 +177,7 @@ mod tests {
             .collect();
         assert_eq!(names, ["gap", "gap0", "gap7", "gap8", "gap1"]);
         objects.add(named("other", [5, 4]));
-        objects.forget(&BTreeSet::from([Handle(3)]));
+        objects.forget(&BTreeSet::from([Handle(3)]), &BTreeSet::new());
         assert_eq!(objects.handles(true), [2_020_007]);
         assert_eq!(objects.add(named("gap", [5, 4])), 2_020_008);
     }

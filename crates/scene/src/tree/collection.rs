@@ -37,7 +37,7 @@ pub struct Collection {
     /// [`CollectionOptions::OVERRIDES`].
     pub overrides: bool,
     /// The script whose end removes it.
-    owner: Option<i64>,
+    pub(super) owner: Option<i64>,
     /// The name it had in scenes from before 4.2; empty without one.
     pub name: String,
     /// What is added and subtracted, in this order.
@@ -185,14 +185,22 @@ impl Collections {
             .retain(|_, collection| collection.owner != Some(owner));
     }
 
-    pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) {
-        for collection in self.by_handle.values_mut() {
-            collection.items.retain(|item| {
-                item.members
-                    .base()
-                    .is_none_or(|base| !removed.contains(&base))
-            });
-        }
+    /// Removes items of objects that are removed. Collections of old scenes end with their last one; others are the scripts' that made
+    /// them. Returns the handles of those that end.
+    pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) -> BTreeSet<i64> {
+        let is_left = |item: &CollectionItem| {
+            let base = item.members.base();
+            base.is_none_or(|base| !removed.contains(&base))
+        };
+        let mut ended = BTreeSet::new();
+        self.by_handle.retain(|handle, collection| {
+            let before = collection.items.len();
+            collection.items.retain(is_left);
+            let ends = before > 0 && collection.items.is_empty() && !collection.name.is_empty();
+            ends.then(|| ended.insert(*handle));
+            !ends
+        });
+        ended
     }
 }
 

@@ -84,7 +84,8 @@ impl Scene {
     }
 
     /// Copies objects, listed parents before children. The copies keep their place in the world; those whose ancestors are not
-    /// copied become roots. Returns original and copy.
+    /// copied become roots. Collections, groups of inverse kinematics, and collision and distance objects that are about copied objects only
+    /// are copied with them. Returns original and copy.
     ///
     /// # Errors
     /// When all handles are in use.
@@ -105,7 +106,9 @@ impl Scene {
                 redirect(object, &copies);
             })?;
         }
-        self.number_names(&names)?;
+        let companions = self.companions_of(&copies);
+        let numbers = self.number_names(&names, &companions.names())?;
+        self.add_companions(companions, &numbers, &copies)?;
         all.map(|()| copies)
     }
 

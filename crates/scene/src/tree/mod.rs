@@ -3,6 +3,7 @@
 pub mod button_interfaces;
 pub mod calculation_objects;
 pub(crate) mod collection;
+pub mod companions;
 pub(crate) mod copy;
 pub(crate) mod default_scene;
 pub(crate) mod hierarchy;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::companions::Companion;
 use super::number_runs::NumberRuns;
 use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
@@ -12,8 +13,6 @@ const MAX_NAME_BYTES: usize = 127;
 #[derive(Debug, Default)]
 pub(crate) struct OldNames {
     handles: BTreeMap<String, Handle>,
-    /// How many of them have a suffix, -1 for none.
-    suffixes: BTreeMap<i64, usize>,
     /// The numbers at the ends of names, by what is before them.
     numbers: BTreeMap<String, NumberRuns>,
 }
@@ -27,7 +26,6 @@ impl OldNames {
             wished
         };
         if self.handles.insert(name.clone(), handle).is_none() {
-            *self.suffixes.entry(suffix(&name).0).or_default() += 1;
             self.note_number(&name);
         }
         name
@@ -36,7 +34,6 @@ impl OldNames {
     /// Makes a name available again.
     pub(crate) fn release(&mut self, name: &str) {
         if self.handles.remove(name).is_some() {
-            self.forget_suffix(suffix(name).0);
             self.forget_number(name);
         }
     }
@@ -65,15 +62,6 @@ impl OldNames {
         }
     }
 
-    fn forget_suffix(&mut self, suffix: i64) {
-        if let Some(count) = self.suffixes.get_mut(&suffix) {
-            *count -= 1;
-            if *count == 0 {
-                self.suffixes.remove(&suffix);
-            }
-        }
-    }
-
     fn next_free(&self, taken: &str) -> String {
         let (stem, own) = split_number(taken);
         let begin = own.map_or(0, |own| own.saturating_add(1));
@@ -91,9 +79,9 @@ impl OldNames {
         self.free_number(&[stem, "#"].concat(), 0) as i64
     }
 
-    /// The smallest suffix with which all stems are free, up to `limit`, with which they are.
-    fn free_suffix(&self, stems: &[&str], limit: i64) -> i64 {
-        if stems.iter().all(|stem| !self.handles.contains_key(*stem)) {
+    /// The smallest suffix that `others` do not use and with which all stems are free, -1 for none.
+    fn free_suffix(&self, stems: &[&str], others: impl Fn(i64) -> bool) -> i64 {
+        if stems.iter().all(|stem| !self.handles.contains_key(*stem)) && !others(-1) {
             return -1;
         }
         let first = stems
@@ -102,19 +90,11 @@ impl OldNames {
             .max()
             .unwrap_or(0);
         let is_free = |number: &i64| {
-            stems.len() == 1
-                || stems
-                    .iter()
-                    .all(|stem| !self.handles.contains_key(&with_suffix(stem, *number)))
+            let mut names = stems.iter().map(|stem| with_suffix(stem, *number));
+            let is_known = stems.len() == 1 && *number == first;
+            (is_known || names.all(|name| !self.handles.contains_key(&name))) && !others(*number)
         };
-        (first..limit).find(is_free).unwrap_or(limit)
-    }
-
-    /// The largest suffix in use; -1 if there is none.
-    fn highest_suffix(&self) -> i64 {
-        self.suffixes
-            .last_key_value()
-            .map_or(-1, |(&suffix, _)| suffix)
+        (first..).find(is_free).unwrap_or(first)
     }
 }
 
@@ -155,7 +135,7 @@ pub fn suffix(name: &str) -> (i64, &str) {
     }
 }
 
-fn with_suffix(stem: &str, number: i64) -> String {
+pub(super) fn with_suffix(stem: &str, number: i64) -> String {
     if number < 0 {
         stem.to_owned()
     } else {
@@ -252,11 +232,15 @@ impl Scene {
     }
 
     /// Renames the objects of a model that was added, given their names in the model: all of one suffix get the same other suffix, the
-    /// smallest with which no name is used twice.
+    /// smallest with which no name is used twice, not by `companions` either. Returns the new suffixes by the old ones; -1 is none.
     ///
     /// # Errors
     /// When an object does not exist.
-    pub fn number_names(&mut self, group: &[(Handle, String)]) -> SceneResult<()> {
+    pub fn number_names(
+        &mut self,
+        group: &[(Handle, String)],
+        companions: &[(Companion, String)],
+    ) -> SceneResult<BTreeMap<i64, i64>> {
         for (handle, _) in group {
             // A copy has none yet.
             let name = self.objects.get(*handle)?.old_name();
@@ -269,129 +253,29 @@ impl Scene {
             .map(|(handle, name)| (suffix(name), *handle))
             .collect();
         members.sort_by_key(|((own, _), _)| *own);
-        let lowest = members.first().map_or(-1, |((own, _), _)| *own);
-        let offset = self.old_names.highest_suffix() - lowest + 1;
+        let mut numbers = BTreeMap::new();
         for same in members.chunk_by(|a, b| a.0.0 == b.0.0) {
+            let own = same[0].0.0;
             let stems: Vec<&str> = same.iter().map(|((_, stem), _)| *stem).collect();
-            let number = self.old_names.free_suffix(&stems, same[0].0.0 + offset);
+            let others = |number| self.has_companion(companions, own, number);
+            let number = self.old_names.free_suffix(&stems, others);
             for ((_, stem), handle) in same {
                 let name = self.old_names.claim(with_suffix(stem, number), *handle);
                 self.modify(*handle, Field::Other, |object| object.old_name = name)?;
             }
+            numbers.insert(own, number);
         }
-        Ok(())
+        Ok(numbers)
+    }
+
+    /// Whether a name that is there is that of one of `companions` with another number instead of `own`.
+    fn has_companion(&self, companions: &[(Companion, String)], own: i64, number: i64) -> bool {
+        companions.iter().any(|(kind, name)| {
+            let (its_own, stem) = suffix(name);
+            its_own == own && self.is_companion(*kind, &with_suffix(stem, number))
+        })
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Kind;
-    use crate::object::dummy::Dummy;
-
-    fn add(scene: &mut Scene, name: &str) -> Handle {
-        let handle = scene
-            .add("dummy", Kind::Dummy(Dummy::new(0.01)))
-            .expect("there is room");
-        scene.set_old_name(handle, name).expect("it exists");
-        handle
-    }
-
-    fn name(scene: &Scene, handle: Handle) -> String {
-        scene
-            .object(handle)
-            .expect("it exists")
-            .old_name()
-            .to_owned()
-    }
-
-    #[test]
-    fn created_objects_get_the_next_number() {
-        let mut scene = Scene::new();
-        let made: Vec<Handle> = (0..3).map(|_| add(&mut scene, "dummy")).collect();
-        assert_eq!(
-            made.iter().map(|&h| name(&scene, h)).collect::<Vec<_>>(),
-            ["dummy", "dummy0", "dummy1"]
-        );
-        scene.remove(&[made[1]]).expect("it exists");
-        let next = add(&mut scene, "dummy");
-        assert_eq!(name(&scene, next), "dummy0");
-        let arm = [add(&mut scene, "arm7"), add(&mut scene, "arm7")];
-        assert_eq!(name(&scene, arm[1]), "arm8");
-        let padded = ["arm09", "arm9", "arm8", "arm09"].map(|name| add(&mut scene, name));
-        let padded = padded.map(|handle| name(&scene, handle));
-        assert_eq!(padded, ["arm09", "arm9", "arm10", "arm11"]);
-    }
-
-    #[test]
-    fn models_are_numbered_as_a_whole() {
-        let mut scene = Scene::new();
-        for expected in [
-            ["bot", "bot_motor"],
-            ["bot#0", "bot_motor#0"],
-            ["bot#1", "bot_motor#1"],
-        ] {
-            let names = ["bot", "bot_motor"];
-            let group: Vec<_> = names
-                .iter()
-                .map(|name| (add(&mut scene, name), (*name).to_owned()))
-                .collect();
-            scene.number_names(&group).expect("they exist");
-            assert_eq!([0, 1].map(|at| name(&scene, group[at].0)), expected);
-        }
-        assert!(scene.find_old_name("bot_motor#1").is_ok());
-    }
-
-    #[test]
-    fn copies_of_a_model_get_the_smallest_number_with_which_all_names_are_free() {
-        let mut scene = Scene::new();
-        let copy = |scene: &mut Scene| {
-            let group: Vec<_> = ["bot", "motor"]
-                .map(|name| (add(scene, "copy"), name.to_owned()))
-                .into();
-            scene.number_names(&group).expect("they exist");
-            group
-                .into_iter()
-                .map(|(handle, _)| handle)
-                .collect::<Vec<_>>()
-        };
-        let copies: Vec<_> = (0..5).map(|_| copy(&mut scene)).collect();
-        assert_eq!(name(&scene, copies[4][1]), "motor#3");
-        scene.remove(&copies[2]).expect("they exist");
-        scene.remove(&copies[3][..1]).expect("it exists");
-        let next = [copy(&mut scene), copy(&mut scene)].map(|copy| name(&scene, copy[0]));
-        assert_eq!(next, ["bot#1", "bot#4"]);
-        let alone = add(&mut scene, "copy");
-        scene
-            .number_names(&[(alone, "bot#7".to_owned())])
-            .expect("it exists");
-        assert_eq!(name(&scene, alone), "bot#2");
-    }
-
-    #[test]
-    fn suffixes_are_split() {
-        assert_eq!(
-            [suffix("arm#12"), suffix("arm12"), suffix("arm#")],
-            [(12, "arm"), (-1, "arm12"), (-1, "arm")]
-        );
-    }
-
-    #[test]
-    fn illegal_names_are_refused() {
-        for name in [
-            "",
-            "#1",
-            "arm#",
-            "arm#00",
-            "my arm",
-            "a#b",
-            "a#1#2",
-            &"x".repeat(128),
-        ] {
-            assert!(!is_legal(name), "{name}");
-        }
-        for name in ["arm", "arm#0", "arm#12", "arm(2)", "a_b", &"x".repeat(127)] {
-            assert!(is_legal(name), "{name}");
-        }
-    }
-}
+mod tests;

@@ -132,9 +132,9 @@ impl Scene {
         if self.selection.forget(removed) {
             self.note(Change::Selection);
         }
-        self.collections.forget(removed);
+        let collections = self.collections.forget(removed);
         self.drawings.forget(removed);
-        self.forget_calculations(removed);
+        self.forget_calculations(removed, &collections);
         self.ik_groups.forget(removed);
         self.button_interfaces.forget(removed);
         let objects = &mut self.objects;

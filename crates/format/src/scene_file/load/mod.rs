@@ -2,6 +2,7 @@
 
 mod button_interfaces;
 pub(super) mod cells;
+mod collections;
 mod common;
 mod custom_data;
 mod filters;
@@ -20,8 +21,8 @@ mod texture;
 
 use std::collections::BTreeMap;
 
+pub(super) use collections::UNNAMED_COLLECTION;
 pub(super) use ik_groups::EXPLICIT as EXPLICIT_IK_GROUP;
-pub(super) use references::UNNAMED_COLLECTION;
 
 use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};
 use crate::ttt::tree::{Class, Object as FileObject};
@@ -159,7 +160,7 @@ impl SceneFile {
             .filter_map(|(object, handle)| Some((object.common.handles?[0], *handle)))
             .collect();
         let root = place(scene, &file, &objects, &map)?;
-        let collections = references::connect(scene, &file, &objects, &map)?;
+        let known_collections = references::connect(scene, &file, &objects, &map)?;
         connect_textures(scene, &objects, &textures, &map)?;
         if settings {
             settings::apply(scene, &file)?;
@@ -182,9 +183,11 @@ impl SceneFile {
         let scripts: Vec<LoadedScript> = scripts.collect();
         let is_attached = |script: &LoadedScript| script.owner.is_some();
         if file_is_model && scripts.iter().any(is_attached) {
-            scene.number_names(&common::names(&file.contents.objects, &objects))?;
+            let names = common::names(&file.contents.objects, &objects);
+            scene.number_names(&names, &collections::companions(&file))?;
         }
-        references::calculation_objects(scene, &file, &objects, &map, &collections);
+        collections::name(scene, &file, &objects, &known_collections)?;
+        references::calculation_objects(scene, &file, &objects, &map, &known_collections.map);
         ik_groups::add(scene, &file, &objects, &map);
         button_interfaces::add(scene, &file, &objects, &map);
         let filters = file

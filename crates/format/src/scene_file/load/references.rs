@@ -1,44 +1,34 @@
-//! References by file handle: links, masters, entities, targets, collections.
-
-use std::collections::BTreeMap;
+//! References by file handle: links, masters, entities, targets.
 
 use super::HandleMap;
-use crate::ttt::chunks::{
-    Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk,
-};
+use super::collections::{CollectionMap, FileCollections, collections};
+use crate::ttt::chunks::{Common, Joint as JointChunk};
 use crate::ttt::tree::{Class, Object as FileObject};
 use crate::ttt::{Counted, EngineBlock, File, Text};
 use scene::joint::{JointDependency, JointMode};
 use scene::object::viewers::Viewers;
 use scene::sensor::Entity;
 use scene::tree::calculation_objects::CalculationObject;
-use scene::{
-    CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult,
-    name_suffix, special,
-};
+use scene::{Field, Handle, ReferenceLists, References, Scene, SceneResult, name_suffix, special};
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
-/// Before the handle of a collection without a name.
-pub(in crate::scene_file) const UNNAMED_COLLECTION: &str = "collection";
 /// Instead of the handle of who sees an object.
 const NOBODY: i32 = -2;
-
-/// From handles of collections in the file to those of the scene.
-pub(super) type CollectionMap = BTreeMap<i32, i64>;
 
 pub(super) fn connect(
     scene: &mut Scene,
     file: &File,
     objects: &[Handle],
     map: &HandleMap,
-) -> SceneResult<CollectionMap> {
-    let collections = collections(scene, file, objects, map)?;
+) -> SceneResult<FileCollections> {
+    let collections = collections(scene, file, map)?;
     let entity = |handle: i32| match handle {
         0..=LAST_OBJECT => map
             .get(&handle)
             .map_or(Entity::ALL, |object| (*object).into()),
         _ => collections
+            .map
             .get(&handle)
             .map_or(Entity::ALL, |collection| Entity::from_raw(*collection)),
     };
@@ -46,9 +36,9 @@ pub(super) fn connect(
         connect_one(scene, object, *handle, map)?;
         watch(scene, object, *handle, entity)?;
         scene.modify(*handle, Field::Other, |new| {
-            new.viewers = viewers(&object.common, map, &collections);
+            new.viewers = viewers(&object.common, map, &collections.map);
         })?;
-        for (tag, list) in lists(&object.common, map, &collections) {
+        for (tag, list) in lists(&object.common, map, &collections.map) {
             scene.set_references(*handle, References::Following, &tag, &list)?;
         }
         for (tag, list) in original_lists(&object.common, file, objects) {
@@ -306,57 +296,4 @@ fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> Reference
         .chain(tagged)
         .filter(|(_, list): &(String, Vec<i64>)| !list.is_empty())
         .collect()
-}
-
-/// Collections that were kept with the scene, before 4.2; from their handles in the file to those of the scene.
-fn collections(
-    scene: &mut Scene,
-    file: &File,
-    objects: &[Handle],
-    map: &HandleMap,
-) -> SceneResult<CollectionMap> {
-    let mut made = BTreeMap::new();
-    for chunk in &file.contents.collections {
-        let handle = scene
-            .collections_mut()
-            .add(chunk.flags.unwrap_or(0) & 1 != 0, None);
-        let items = chunk
-            .elements
-            .iter()
-            .filter_map(|element| item(element, map));
-        scene.collections_mut().get_mut(handle)?.items = items.collect();
-        if let Some(name) = collection_name(chunk) {
-            let name = numbered(scene, file, objects, name);
-            scene.collections_mut().set_name(handle, name)?;
-        }
-        if let Some(old) = chunk.handle {
-            made.insert(old, handle);
-        }
-    }
-    Ok(made)
-}
-
-/// The name in the file; those that were made up for files without names mean none.
-fn collection_name(chunk: &CollectionChunk) -> Option<String> {
-    let name = chunk.name.as_ref()?.decode();
-    let made_up = format!("{UNNAMED_COLLECTION}{}", chunk.handle.unwrap_or(-1));
-    (!name.is_empty() && name != made_up).then_some(name)
-}
-
-/// Objects one by one, from a base down, from a tip up, or everything; a base that is gone takes its element with it.
-fn item(element: &CollectionElement, map: &HandleMap) -> Option<CollectionItem> {
-    let kind = element.kind?;
-    let base = map.get(&element.handles?[0]).copied();
-    let members = match kind {
-        0 => Members::Single(base?),
-        1 | 2 => Members::Tree(base?),
-        3 | 4 => Members::Chain(base?),
-        _ => Members::All,
-    };
-    let subtract = element.flags.unwrap_or(1) & 1 == 0;
-    Some(CollectionItem {
-        members,
-        subtract,
-        exclude_base: matches!(kind, 2 | 4),
-    })
 }

@@ -21,6 +21,27 @@ fn masses_add_up() {
 }
 
 #[test]
+fn the_result_has_both_names_of_the_last_shape() {
+    for merge in [true, false] {
+        let mut scene = Scene::new();
+        let mut cube = |name: &str| {
+            let shape =
+                Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+            let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
+            scene.set_old_name(cube, name).unwrap();
+            cube
+        };
+        let [first, last] = ["bolt", "nut#2"].map(&mut cube);
+        let originals = [first.raw(), last.raw()];
+        let (group, members) = scene.group_shapes(&originals, merge).unwrap();
+        scene.remove(&members).unwrap();
+        let group = scene.object(group).unwrap();
+        assert_eq!((group.alias(), group.old_name()), ("c", "nut#2"), "{merge}");
+        assert!(scene.find_old_name("nut#2").is_ok() && scene.find_old_name("bolt").is_err());
+    }
+}
+
+#[test]
 fn pieces_take_the_place_and_the_settings_of_their_group() {
     let mut scene = Scene::new();
     let mut cube = || {
