@@ -1130,7 +1130,7 @@ function sim.getExplicitHandling(objectHandle) end
 --- The extension string of an object or the scene, for renderers: `povray {focalBlur {true}} openGL3 {...}`.
 ---@param objectHandle integer the object, or sim.handle_scene
 ---@param index integer -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
----@param key? string one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
+---@param key? string one entry, the innermost name first: `focalBlur@povray`; nothing or an empty text for the whole string
 ---@return string theString nothing when there is no such entry
 function sim.getExtensionString(objectHandle, index, key) end
 

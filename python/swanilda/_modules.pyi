@@ -3007,7 +3007,7 @@ class _sim:
         """The extension string of an object or the scene, for renderers: `povray {focalBlur {true}} openGL3 {...}`.
         objectHandle: the object, or sim.handle_scene
         index: -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
-        key: one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
+        key: one entry, the innermost name first: `focalBlur@povray`; nothing or an empty text for the whole string
         """
     def getFloatArrayProperty(self, target: int, propertyName: str, options: Mapping[Any, Any] | None = ..., /) -> list[float]:
         """Value of a property.

@@ -4,6 +4,7 @@ mod determinism;
 mod legacy_remote_api;
 mod lines;
 mod old_scenes;
+mod old_scripts;
 mod own_module;
 mod permissions;
 mod playback;

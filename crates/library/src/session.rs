@@ -63,6 +63,8 @@ fn options(launch: &Launch) -> Options {
             .iter()
             .map(|scene| Simulator::folder_of_scene(scene))
             .collect(),
+        // What such programs and their add-ons do is of 4.1.
+        sets_up_plans: launch.has_old_add_ons,
         resources: Some(launch.root.clone()).filter(|root| root.is_dir()),
         ..Options::default()
     };

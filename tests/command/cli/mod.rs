@@ -14,6 +14,7 @@ mod hashes;
 #[cfg(unix)]
 mod interrupts;
 mod messages;
+mod old_scripts;
 mod recording;
 mod render;
 mod resources;

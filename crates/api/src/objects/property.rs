@@ -114,7 +114,7 @@ fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneErr
 ///
 /// @param objectHandle the object, or sim.handle_scene
 /// @param index -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
-/// @param key one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
+/// @param key one entry, the innermost name first: `focalBlur@povray`; nothing or an empty text for the whole string
 /// @return theString nothing when there is no such entry
 #[api("sim.getExtensionString")]
 fn get_extension_string(
@@ -131,7 +131,7 @@ fn get_extension_string(
             colour_extension(object(&scene, raw)?, index).ok_or(SceneError::InvalidArgument)?
         }
     };
-    Ok(match key {
+    Ok(match key.filter(|key| !key.is_empty()) {
         None => Some(text.clone()),
         Some(key) => extension_string::entry(text, &key).map(str::to_owned),
     })

@@ -33,6 +33,10 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 #[api("simOMPL.setup")]
 fn setup(cx: &mut Cx, task_handle: String) -> Result<()> {
     let task = task(cx, &task_handle)?;
+    set_up(cx, &task)
+}
+
+fn set_up(cx: &Cx, task: &RefCell<Task>) -> Result<()> {
     let setup = Setup::new(cx, &task.borrow())?;
     task.borrow_mut().setup = Some(Rc::new(setup));
     Ok(())
@@ -66,6 +70,9 @@ fn compute(
     #[default(Number(0))] state_cnt: Number,
 ) -> Result<(bool, Vec<f64>)> {
     let task = task(cx, &task_handle)?;
+    if cx.options().sets_up_plans {
+        set_up(cx, &task)?;
+    }
     if !plan(cx, &task, max_time)? {
         return Ok((false, Vec::new()));
     }

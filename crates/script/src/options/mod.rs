@@ -51,6 +51,8 @@ pub struct Options {
     pub debug_python: bool,
     /// Whether the error for a missing module has CoppeliaSim's text, with every place that was searched.
     pub original_errors: bool,
+    /// Whether `simOMPL.compute` sets its task up first, as in CoppeliaSim up to 4.1.
+    pub sets_up_plans: bool,
     /// Threads that draw pictures and divide meshes into convex pieces; None for as many as there are processor cores. Results do not depend on it.
     pub render_threads: Option<NonZero<usize>>,
     /// Threads that compute mechanisms that are apart, such as robots. Results do not depend on it.
@@ -82,6 +84,7 @@ impl Default for Options {
             count_lines: false,
             debug_python: false,
             original_errors: false,
+            sets_up_plans: false,
             render_threads: None,
             threads: NonZero::<usize>::MIN,
             listen_address: Ipv4Addr::LOCALHOST.into(),

@@ -6,6 +6,7 @@
 mod keywords;
 pub mod old_names;
 mod poses;
+mod preludes;
 mod texts;
 mod threads;
 
@@ -104,6 +105,15 @@ fn migrate(text: &str, origin: &Origin) -> String {
         text = texts::own_object(&text);
         text = texts::end_of_simulation(&text);
     }
+    let text = in_its_form(text, origin);
+    if origin.is_before(LUA_5_3) {
+        return preludes::truncating_format(&preludes::setup_of_planning(&text));
+    }
+    text
+}
+
+/// The text with the callbacks that scripts have since.
+fn in_its_form(text: String, origin: &Origin) -> String {
     match origin.thread {
         Some(_) if is_empty(&text) => text,
         Some(thread) if origin.is_before(COROUTINES) => {
