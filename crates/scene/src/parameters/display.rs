@@ -13,6 +13,8 @@ mod vision {
     pub const PERSPECTIVE_ANGLE: i64 = 1004;
     pub const ORTHO_SIZE: i64 = 1005;
     pub const ENTITY_TO_RENDER: i64 = 1008;
+    pub const WINDOW_WIDTH: i64 = 1009;
+    pub const WINDOW_HEIGHT: i64 = 1010;
     pub const RENDER_MODE: i64 = 1017;
     pub const PERSPECTIVE_OPERATION: i64 = 1018;
     pub const RGB_IGNORED: i64 = 1020;
@@ -20,14 +22,7 @@ mod vision {
     pub const VIEW_FRUSTUM: i64 = 1019;
 
     /// Of ways of rendering that there are no more: the values they always have.
-    pub const OLD_INTEGERS: [(i64, i64); 6] = [
-        (1006, 0),
-        (1007, 0xf81),
-        (1009, 0),
-        (1010, 0),
-        (1013, 0),
-        (1016, 10),
-    ];
+    pub const OLD_INTEGERS: [(i64, i64); 4] = [(1006, 0), (1007, 0xf81), (1013, 0), (1016, 10)];
     pub const OLD_FLOATS: [(i64, f64); 2] = [(1014, 2.0), (1015, 0.05)];
 }
 
@@ -139,6 +134,8 @@ impl VisionSensor {
             vision::RESOLUTION_X => self.view.resolution[0].into(),
             vision::RESOLUTION_Y => self.view.resolution[1].into(),
             vision::ENTITY_TO_RENDER => self.entity.raw(),
+            vision::WINDOW_WIDTH => self.window[0],
+            vision::WINDOW_HEIGHT => self.window[1],
             vision::RENDER_MODE => self.render_mode.0,
             vision::PERSPECTIVE_OPERATION => self.view.perspective.into(),
             vision::RGB_IGNORED => self.ignore_image.into(),
@@ -153,6 +150,8 @@ impl VisionSensor {
             vision::RESOLUTION_X => self.set_resolution([value, height]),
             vision::RESOLUTION_Y => self.set_resolution([width, value]),
             vision::ENTITY_TO_RENDER => self.entity = Entity::from_raw(value),
+            vision::WINDOW_WIDTH => self.window[0] = value,
+            vision::WINDOW_HEIGHT => self.window[1] = value,
             vision::RENDER_MODE => self.render_mode = RenderMode(value),
             vision::PERSPECTIVE_OPERATION => self.view.perspective = value != 0,
             vision::RGB_IGNORED => self.ignore_image = value != 0,
@@ -328,6 +327,24 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor::VisionOptions;
+
+    #[test]
+    fn the_window_of_a_vision_sensor_keeps_the_size_it_is_given() {
+        let mut scene = Scene::new();
+        let sensor = VisionSensor::new(VisionOptions::empty(), [4, 4], None);
+        let sensor = scene
+            .add("eye", Kind::VisionSensor(Box::new(sensor)))
+            .expect("there is room");
+        let read = |scene: &Scene, id| scene.object(sensor).unwrap().display_int_param(id);
+        assert_eq!([1009, 1010].map(|id| read(&scene, id)), [Some(0); 2]);
+        assert_eq!(scene.set_display_int(sensor, 1009, 640), Ok(true));
+        assert_eq!(scene.set_display_int(sensor, 1010, 480), Ok(true));
+        assert_eq!(
+            [1009, 1010, 1002].map(|id| read(&scene, id)),
+            [Some(640), Some(480), Some(4)]
+        );
+    }
 
     #[test]
     fn the_numbers_of_a_camera_are_its_own() {

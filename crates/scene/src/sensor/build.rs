@@ -168,6 +168,7 @@ impl VisionSensor {
             ignore_image: false,
             ignore_depth: false,
             ignore_specular: false,
+            window: [0; 2],
             omit_statistics: false,
             image: Vec::new(),
             depth: Vec::new(),

@@ -15,8 +15,8 @@ use crate::host::{
     CallError, CallbackResult, Callee, Level, MAX_DEPTH, Runtime, Script, ScriptError, Sim, state,
 };
 use crate::sys_call::SysCall;
-use scene::Data;
 use scene::object::script_object::ScriptType;
+use scene::{Data, Field, Handle};
 
 impl Sim {
     /// Calls the global function `name` (dots walk through tables) of a script.
@@ -122,16 +122,29 @@ impl Sim {
         })
     }
 
-    /// Resets a script and initialises it at once where 4.10 does.
+    /// Resets a script and initialises it at once where 4.10 does. Add-ons that scripts have made are enabled by it: they are disabled
+    /// objects before.
     pub fn init_script(self: &Rc<Self>, script: &Rc<Script>) {
         if script.depth() > 0 {
             // Its interpreter is in use: it restarts at the next call.
             return;
         }
         self.reset(script);
-        if !matches!(script.script_type, ScriptType::AddOn | ScriptType::Main) {
-            self.deliver(script, SysCall::Init, &[]);
+        match (script.script_type, script.object) {
+            (ScriptType::Main, _) | (ScriptType::AddOn, None) => return,
+            (ScriptType::AddOn, Some(object)) => self.enable(object),
+            _ => {}
         }
+        self.deliver(script, SysCall::Init, &[]);
+    }
+
+    fn enable(&self, object: Handle) {
+        let mut scene = self.scene.borrow_mut();
+        // One that is being removed stays as it is.
+        let _ = scene.try_modify(object, Field::Script, |object| {
+            object.script_mut()?.disabled = false;
+            Ok(())
+        });
     }
 
     /// Starts sandbox and add-ons.

@@ -175,6 +175,7 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         ignore_image: second & 2 != 0,
         ignore_depth: second & 4 != 0,
         ignore_specular: false,
+        window: [0; 2],
         omit_statistics: second & 0x10 != 0,
         image: Vec::new(),
         depth: Vec::new(),

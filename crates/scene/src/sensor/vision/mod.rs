@@ -59,6 +59,8 @@ pub struct VisionSensor {
     pub ignore_depth: bool,
     /// Surfaces have no highlights, as in the pictures that simVision.handleSpherical composes.
     pub ignore_specular: bool,
+    /// Width and height of a window that is not shown, pixels, as scripts set them.
+    pub window: [i64; 2],
     /// The first packet of results is not computed.
     pub omit_statistics: bool,
     /// Red, green, blue of each pixel, the bottom row first; empty before there was an image.

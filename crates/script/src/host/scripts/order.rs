@@ -119,7 +119,10 @@ impl Sim {
         let mut cache = self.scripts.order.borrow_mut();
         cache.simulation = joined(&[&old_simulation, &simulation]);
         cache.customization = joined(&[&old_customization, &customization]);
-        cache.add_ons = self.scripts.detached_of(ScriptType::AddOn);
+        cache.add_ons = joined(&[
+            &self.scripts.detached_of(ScriptType::AddOn),
+            &of_type(&scripts, ScriptType::AddOn),
+        ]);
         cache.sandbox = self.scripts.detached_of(ScriptType::Sandbox);
         cache.main = self.scripts.detached_of(ScriptType::Main);
         cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
