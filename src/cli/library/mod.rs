@@ -29,6 +29,9 @@ pub(super) struct Args {
     /// The library of the simulator [default: libswanilda_library.so beside this program or in ../lib/swanilda]
     #[arg(long, value_name = "FILE")]
     simulator: Option<PathBuf>,
+    /// Leave out the command and coppeliaSim.sh, for small containers
+    #[arg(long)]
+    without_command: bool,
 }
 
 /// What CoppeliaSim's Python package looks for in the folder of Python files: the types in the first lines of functions' descriptions.
@@ -108,6 +111,14 @@ fn fill(args: &Args, program: &Path, simulator: &Path) -> io::Result<()> {
     put(&folder.join(SIMULATOR), 0o755, |file| {
         fs::copy(simulator, file).map(drop)
     })?;
+    if args.without_command {
+        return Ok(());
+    }
+    put_command(folder, program)
+}
+
+/// The command, and how other programs start it.
+fn put_command(folder: &Path, program: &Path) -> io::Result<()> {
     put(&folder.join("swanilda"), 0o755, |file| {
         fs::copy(program, file).map(drop)
     })?;
