@@ -254,10 +254,10 @@ def configuration_trees(sim):
 
 
 def kinematics(sim):
-    """A planar arm of two links of half a metre: a group as files of V-REP have it, solved without moving the joints."""
+    """A planar arm of two links of half a metre, whose joints have motors: a group as files of V-REP have it, solved without moving them."""
     arm, parent = [], -1
     for x in (0.0, 0.5):
-        joint = sim.CreateJoint(10, IK, 0, [0.1, 0.02], None, None)
+        joint = sim.CreateJoint(10, DYNAMIC, 0, [0.1, 0.02], None, None)
         sim.SetObjectParent(joint, parent, 1)
         sim.SetObjectPosition(joint, parent, [x, 0.0, 0.0])
         arm.append(joint)
@@ -399,6 +399,7 @@ CHECKS = [
     kinematics,
     motion_profiles,
     four_tables,
+    planning,
     simulation,
     files,
     drawings,
