@@ -1,6 +1,7 @@
 //! Pictures of small scenes, and what is kept between them.
 
 mod pictures;
+mod sensors;
 mod views;
 
 use geometry::PrimitiveKind;
