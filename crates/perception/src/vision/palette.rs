@@ -71,4 +71,16 @@ mod tests {
         assert_eq!(palette.texture().unwrap().image.size(), [256, 1]);
         assert!(Palette::default().texture().is_none());
     }
+
+    #[test]
+    fn many_colours_have_rows_of_their_own() {
+        let mut palette = Palette::default();
+        for number in 0..600_u16 {
+            let [low, high] = number.to_le_bytes();
+            assert_eq!(palette.number([low, high, 0]), usize::from(number));
+        }
+        assert_eq!(palette.place(0), [0.5 / 256.0, 0.5 / 3.0]);
+        assert_eq!(palette.place(258), [2.5 / 256.0, 0.5]);
+        assert_eq!(palette.place(599), [87.5 / 256.0, 2.5 / 3.0]);
+    }
 }

@@ -86,4 +86,15 @@ mod tests {
         assert_eq!(spares.colours.len(), MAX_SPARES);
         assert_eq!(spares.picture([19, 1], Channels::COLOUR).colour.len(), 57);
     }
+
+    #[test]
+    fn colours_alone_use_memory_again() {
+        let mut spares = Spares::default();
+        let list = vec![7; 12];
+        let place = list.as_ptr();
+        spares.keep(list, Vec::new());
+        let colours = spares.colours(4);
+        assert_eq!((colours.as_ptr(), colours.len()), (place, 12));
+        assert_eq!(spares.colours(5).len(), 15);
+    }
 }

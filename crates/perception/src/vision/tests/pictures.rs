@@ -108,6 +108,7 @@ fn items_of_one_object_are_apart_and_may_have_a_back() {
         ([left, right].concat(), DrawingFlags::empty(), 2.0),
         (away.to_vec(), DrawingFlags::empty(), 1.0),
         (away.to_vec(), DrawingFlags::BACK_FACE_CULLING, 0.0),
+        (left.to_vec(), DrawingFlags::BACK_FACE_CULLING, 1.0),
     ] {
         let mut studio = studio();
         draw(&mut studio, style(DrawingKind::QuadPoints, flags), &numbers);
@@ -116,6 +117,67 @@ fn items_of_one_object_are_apart_and_may_have_a_back() {
             (share - quads * one).abs() < 0.15 * one,
             "{share} is not {quads} quads"
         );
+    }
+}
+
+#[test]
+fn solid_bodies_show_their_outside() {
+    for kind in [DrawingKind::CubePoints, DrawingKind::SpherePoints] {
+        let mut studio = studio();
+        let style = style(kind, DrawingFlags::BACK_FACE_CULLING);
+        draw(&mut studio, style, &[0.0, 0.0, 1.0]);
+        let depth = shown(&mut studio).1;
+        assert!((depth - 0.75).abs() < 0.02, "{kind:?}: {depth}");
+    }
+}
+
+#[test]
+fn between_small_bodies_there_is_nothing() {
+    use DrawingKind::{DiscPoints, QuadPoints, TrianglePoints};
+    let numbers = [-0.35, 0.35].map(|x| [x, x, 1.0, 0.0, 0.0, -1.0]).concat();
+    // Of bodies 0.2 m wide.
+    for (kind, area) in [
+        (QuadPoints, 0.04),
+        (DiscPoints, 0.0306),
+        (TrianglePoints, 0.013),
+    ] {
+        let mut studio = studio();
+        let small = DrawingStyle {
+            size: 0.2,
+            ..style(kind, DrawingFlags::empty())
+        };
+        draw(&mut studio, small, &numbers);
+        let (share, expected) = (shown(&mut studio).0, 2.0 * area / (WIDTH * WIDTH));
+        let is_near = (share - expected).abs() < 0.25 * expected;
+        assert!(is_near, "{kind:?}: {share} is not {expected}");
+    }
+}
+
+#[test]
+fn edges_alone_are_thin() {
+    let mut studio = studio();
+    let style = style(DrawingKind::QuadPoints, DrawingFlags::WIREFRAME);
+    draw(&mut studio, style, &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0]);
+    let share = shown(&mut studio).0 * WIDTH * WIDTH / 0.25;
+    assert!((0.02..0.6).contains(&share), "{share} of the quad");
+}
+
+#[test]
+fn bodies_face_any_direction() {
+    let turns = [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.4, 0.4, 0.0]];
+    for turn in turns.map(|turn| nalgebra::Vector3::from(turn) * std::f64::consts::FRAC_PI_2) {
+        let mut studio = studio();
+        let pose = Pose::new([0.0; 3].into(), turn);
+        studio.scene.set_world_pose(studio.sensor, pose).unwrap();
+        let ahead = pose * nalgebra::Vector3::z();
+        let numbers = [ahead, -ahead].map(<[f64; 3]>::from).concat();
+        draw(
+            &mut studio,
+            style(DrawingKind::QuadPoints, DrawingFlags::empty()),
+            &numbers,
+        );
+        let share = shown(&mut studio).0 * WIDTH * WIDTH;
+        assert!((share - 0.25).abs() < 0.04, "{turn:?}: {share}");
     }
 }
 
