@@ -233,4 +233,137 @@ mod tests {
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
     }
+
+    const STEP: f64 = 0.005;
+
+    /// What a motor is to do in the next sub-step.
+    fn drive(motor: &mut Motor, joint: &Joint, now: Motion) -> Drive {
+        let drive = motor.drive(joint, Engine::Bullet, now, STEP);
+        drive.expect("the motor is on")
+    }
+
+    fn near(value: f64, expected: f64, tolerance: f64) {
+        let is_near = (value - expected).abs() <= tolerance;
+        assert!(is_near, "{value} is not {expected}");
+    }
+
+    #[test]
+    fn the_errors_of_the_past_count_while_there_is_an_integral_gain() {
+        let mut joint = joint(Control::Position);
+        joint.target_position = 0.1;
+        joint.gains[Engine::Bullet as usize] = [0.0, 0.2, 0.0];
+        let mut motor = Motor::default();
+        // Of a sub-step: 0.2 0.1 5 ms / 5 ms.
+        near(drive(&mut motor, &joint, AT_ZERO).velocity, 0.02, 1e-12);
+        near(drive(&mut motor, &joint, AT_ZERO).velocity, 0.04, 1e-12);
+        joint.gains[Engine::Bullet as usize] = [0.1, 0.0, 0.0];
+        near(drive(&mut motor, &joint, AT_ZERO).velocity, 2.0, 1e-12);
+        joint.gains[Engine::Bullet as usize] = [0.1, 0.2, 0.0];
+        near(drive(&mut motor, &joint, AT_ZERO).velocity, 2.02, 1e-12);
+    }
+
+    #[test]
+    fn position_control_brakes_and_keeps_to_the_largest_velocity() {
+        let mut joint = joint(Control::Position);
+        (joint.max_vel, joint.target_force) = (3.0, -7.0);
+        joint.gains[Engine::Bullet as usize] = [0.1, 0.0, 0.005];
+        let moving = |position, velocity| Motion { position, velocity };
+        let velocity = |now| -> f64 { drive(&mut Motor::default(), &joint, now).velocity };
+        near(velocity(moving(0.0, 2.0)), -2.0, 1e-12);
+        near(velocity(moving(0.1, -1.0)), -1.0, 1e-12);
+        near(velocity(moving(1.0, 0.0)), -3.0, 1e-12);
+        near(velocity(moving(-1.0, 0.0)), 3.0, 1e-12);
+        assert_eq!(drive(&mut Motor::default(), &joint, AT_ZERO).force, 7.0);
+    }
+
+    #[test]
+    fn a_locked_motor_returns_to_where_it_was_locked() {
+        let mut joint = joint(Control::Velocity);
+        (joint.motor_lock, joint.target_velocity) = (true, 0.0);
+        let at = |position| Motion {
+            position,
+            velocity: 0.0,
+        };
+        let mut motor = Motor::default();
+        assert_eq!(drive(&mut motor, &joint, at(0.3)).velocity, 0.0);
+        let back = drive(&mut motor, &joint, at(0.31));
+        near(back.velocity, -0.01 / STEP, 1e-9);
+        assert!(back.force >= 1e6);
+        joint.target_velocity = 1.0;
+        let on = drive(&mut motor, &joint, at(0.5));
+        assert_eq!((on.velocity, on.force), (1.0, joint.target_force));
+        joint.target_velocity = 0.0;
+        assert_eq!(drive(&mut motor, &joint, at(0.6)).velocity, 0.0);
+        joint.motor_lock = false;
+        let loose = drive(&mut motor, &joint, at(0.7));
+        assert_eq!((loose.velocity, loose.force), (0.0, joint.target_force));
+    }
+
+    /// Where a motor that keeps to its profile is in each sub-step of so many seconds.
+    fn followed(joint: &Joint, seconds: f64) -> Motion {
+        let (mut motor, mut now) = (Motor::default(), AT_ZERO);
+        for _ in 0..(seconds / STEP).round() as usize {
+            now.velocity = drive(&mut motor, joint, now).velocity;
+            now.position += now.velocity * STEP;
+        }
+        now
+    }
+
+    #[test]
+    fn profiles_keep_to_the_largest_acceleration_and_velocity() {
+        let mut joint = joint(Control::Velocity);
+        (joint.max_vel, joint.max_accel, joint.max_jerk) = (1.0, 10.0, 1e7);
+        (joint.velocity_profile, joint.target_velocity) = (true, 5.0);
+        near(followed(&joint, 0.2).velocity, 2.0, 1e-3);
+        near(followed(&joint, 1.0).velocity, 5.0, 1e-9);
+        (joint.control, joint.position_profile, joint.target_position) =
+            (Control::Position, true, 1.0);
+        // A tenth of a second to speed up, 5 cm behind from then on, and as long to brake.
+        near(followed(&joint, 0.05).velocity, 0.5, 1e-3);
+        near(followed(&joint, 0.5).position, 0.45, 1e-2);
+        near(followed(&joint, 0.5).velocity, 1.0, 1e-3);
+        let end = followed(&joint, 1.5);
+        near(end.position, 1.0, 1e-3);
+        near(end.velocity, 0.0, 1e-3);
+    }
+
+    #[test]
+    fn forces_and_answers_of_scripts_push_or_turn() {
+        let mut joint = joint(Control::Force);
+        for (force, velocity) in [(3.0, 10_000.0), (-3.0, -10_000.0)] {
+            joint.target_force = force;
+            let expected = Drive {
+                velocity,
+                force: 3.0,
+            };
+            assert_eq!(drive(&mut Motor::default(), &joint, AT_ZERO), expected);
+            assert_eq!(answered(None, Some(force)), Some(expected));
+        }
+        let order = |velocity, force| Some(Drive { velocity, force });
+        assert_eq!(answered(None, None), order(0.0, 0.0));
+        assert_eq!(answered(Some(2.0), None), order(2.0, 10_000.0));
+        assert_eq!(answered(Some(-2.0), Some(-5.0)), order(-2.0, 5.0));
+    }
+
+    #[test]
+    fn a_follower_reaches_its_place_and_goes_on_with_its_master() {
+        let joint = Joint {
+            dependency: Some(scene::joint::JointDependency {
+                master: scene::Handle(1),
+                offset: 0.1,
+                coefficient: 2.0,
+            }),
+            ..joint(Control::Free)
+        };
+        let [now, master] =
+            [(0.65, 7.0), (0.3, 1.5)].map(|(position, velocity)| Motion { position, velocity });
+        let drive = coupled_drive(&joint, now, master, STEP).expect("it follows");
+        near(drive.velocity, 0.05 / STEP + 3.0, 1e-9);
+        assert!(drive.force >= 1e6);
+        let free = Joint {
+            dependency: None,
+            ..joint
+        };
+        assert_eq!(coupled_drive(&free, now, master, STEP), None);
+    }
 }

@@ -1,5 +1,8 @@
 //! Results for the scene: after a sub-step and at the end of a call.
 
+#[cfg(test)]
+mod tests;
+
 use geometry::pose::euler::wrap_angle;
 use nalgebra::UnitQuaternion;
 use rapier3d_f64::prelude::RigidBody;

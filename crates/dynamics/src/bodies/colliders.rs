@@ -3,6 +3,9 @@
 //! Primitives become their analytic forms, convex meshes hulls, other meshes triangle meshes; a dynamic mesh that is not convex is
 //! decomposed into convex pieces, because triangles have no inside.
 
+#[cfg(test)]
+mod tests;
+
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
@@ -108,6 +111,7 @@ fn has_volume(mesh: &Mesh) -> bool {
     mesh.aabb()
         .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }
+
 /// The same forms, but none turned where several are: as a part of one that is not. A collider that is turned cannot be without mass to the last digit (see
 /// [`carrier`](super::mass::carrier)).
 pub(super) fn without_several_turned(

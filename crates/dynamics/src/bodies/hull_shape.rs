@@ -156,4 +156,44 @@ mod tests {
             matches!(shape.as_typed_shape(), TypedShape::ConvexPolyhedron(of) if of.points() == polyhedron.points())
         );
     }
+
+    /// A cube of 2 m as a hull, of which all answers are known.
+    #[test]
+    fn rays_and_points_find_the_surface_of_a_hull() {
+        let sign = |i: usize, axis: usize| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        let corners = (0..8).map(|i| Vector::new(sign(i, 0), sign(i, 1), sign(i, 2)));
+        let corners: Vec<Vector> = corners.collect();
+        let polyhedron = ConvexPolyhedron::from_convex_hull(&corners).expect("a cube has a hull");
+        let shape = hull_shape(polyhedron);
+        assert!(shape.is_convex());
+        let ray = Ray::new(Vector::new(-4.0, 0.2, 0.3), Vector::new(2.0, 0.0, 0.0));
+        let hit = shape.cast_local_ray_and_get_normal(&ray, 10.0, true);
+        let hit = hit.expect("the ray hits the cube");
+        assert!((hit.time_of_impact - 1.5).abs() < 1e-9, "{hit:?}");
+        assert!((hit.normal + Vector::X).length() < 1e-9, "{hit:?}");
+        let beside = Vector::new(0.5, -3.0, 0.25);
+        for found in [
+            shape.project_local_point(beside, true),
+            shape.project_local_point_and_get_feature(beside).0,
+        ] {
+            let expected = Vector::new(0.5, -1.0, 0.25);
+            assert!(!found.is_inside && (found.point - expected).length() < 1e-9);
+        }
+        assert!(
+            shape
+                .project_local_point(Vector::splat(0.5), true)
+                .is_inside
+        );
+        let (map, border) = shape.as_polygonal_feature_map().expect("it has faces");
+        assert_eq!(border, 0.0);
+        assert_eq!(
+            map.local_support_point(Vector::new(1.0, 2.0, 3.0)),
+            Vector::ONE
+        );
+        let placed = shape.compute_aabb(&Pose::from_translation(Vector::splat(5.0)));
+        assert_eq!(
+            (placed.mins, placed.maxs),
+            (Vector::splat(4.0), Vector::splat(6.0))
+        );
+    }
 }

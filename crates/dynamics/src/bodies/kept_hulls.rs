@@ -247,4 +247,33 @@ mod tests {
         dented.points[4] = [0.5; 3];
         assert!(decode(&encode(&[dented])).is_some());
     }
+
+    #[test]
+    fn dents_are_noticed_wherever_a_hull_is() {
+        // A square and two points before and behind it, which lies at 1 / 2 / 3.
+        let octahedron = |inside: bool| {
+            let top = if inside { 2.5 } else { 4.0 };
+            let points = [
+                [0.0, 2.0, 3.0],
+                [1.0, 1.0, 3.0],
+                [2.0, 2.0, 3.0],
+                [1.0, 3.0, 3.0],
+            ];
+            let poles = [[1.0, 2.0, top], [1.0, 2.0, 2.0]];
+            let around = [[0, 1], [1, 2], [2, 3], [3, 0]];
+            Hull {
+                points: points.into_iter().chain(poles).collect(),
+                triangles: around
+                    .into_iter()
+                    .flat_map(|[a, b]| [[a, b, 4], [b, a, 5]])
+                    .collect(),
+            }
+        };
+        let whole = octahedron(false);
+        assert_eq!(
+            decode(&encode(std::slice::from_ref(&whole))),
+            Some(vec![whole])
+        );
+        assert_eq!(decode(&encode(&[octahedron(true)])), None);
+    }
 }

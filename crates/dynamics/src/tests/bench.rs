@@ -14,6 +14,8 @@ pub(super) const STEP: f64 = 0.05;
 pub(super) struct Bench {
     pub(super) scene: Scene,
     pub(super) dynamics: Dynamics,
+    /// Of the last call.
+    pub(super) triggers: Vec<Trigger>,
 }
 
 impl Bench {
@@ -21,6 +23,7 @@ impl Bench {
         Self {
             scene: Scene::new(),
             dynamics: Dynamics::default(),
+            triggers: Vec::new(),
         }
     }
 
@@ -81,6 +84,16 @@ impl Bench {
 
     /// Steps with a script that decides about contacts.
     pub(super) fn run_asking(&mut self, steps: usize, callback: Option<ContactCallback<'_>>) {
+        self.run_with(steps, callback, |_| (None, None));
+    }
+
+    /// Steps with a script that answers with velocity and force of joints in callback control, and one that decides about contacts.
+    pub(super) fn run_with(
+        &mut self,
+        steps: usize,
+        callback: Option<ContactCallback<'_>>,
+        mut answer: impl FnMut(&JointRequest) -> (Option<f64>, Option<f64>),
+    ) {
         for _ in 0..steps {
             let Some(call) = self
                 .dynamics
@@ -90,22 +103,58 @@ impl Bench {
                 continue;
             };
             for number in 1..=call.sub_steps {
-                self.dynamics.prepare(&self.scene, number);
-                let verdicts = callback.map_or_else(Verdicts::default, |asked| {
-                    ask(self.dynamics.pairs_near(), asked)
-                });
-                let script_access = ScriptAccess {
-                    possible: callback.is_some(),
-                };
-                let started =
-                    self.dynamics
-                        .start_sub_step(&self.scene, number, script_access, verdicts);
-                let mut sub_step = started.expect("there is a world");
-                sub_step.run(callback);
-                self.dynamics.finish_sub_step(sub_step, &mut self.scene);
+                for request in self.dynamics.prepare(&self.scene, number) {
+                    let (velocity, force) = answer(&request);
+                    self.dynamics.drive(request.joint, velocity, force);
+                }
+                self.sub_step(number, callback);
             }
-            self.dynamics.end(&mut self.scene);
+            self.triggers = self.dynamics.end(&mut self.scene);
         }
+    }
+
+    fn sub_step(&mut self, number: u32, callback: Option<ContactCallback<'_>>) {
+        let verdicts = callback.map_or_else(Verdicts::default, |asked| {
+            ask(self.dynamics.pairs_near(), asked)
+        });
+        let script_access = ScriptAccess {
+            possible: callback.is_some(),
+        };
+        let started = self
+            .dynamics
+            .start_sub_step(&self.scene, number, script_access, verdicts);
+        let mut sub_step = started.expect("there is a world");
+        sub_step.run(callback);
+        self.dynamics.finish_sub_step(sub_step, &mut self.scene);
+    }
+
+    /// Changes a shape.
+    pub(super) fn change(&mut self, shape: Handle, change: impl FnOnce(&mut Shape)) {
+        let changed = self.scene.try_modify(shape, Field::Dynamics, |object| {
+            change(object.shape_mut()?);
+            Ok(())
+        });
+        changed.expect("a shape");
+    }
+
+    /// A shape as it is now.
+    pub(super) fn shape_of(&self, shape: Handle) -> &Shape {
+        let object = self.scene.object(shape).expect("exists");
+        object.shape().expect("a shape")
+    }
+
+    pub(super) fn pose(&self, handle: Handle) -> Pose {
+        self.scene.world_pose(handle).expect("exists")
+    }
+
+    /// Place in the world, metres.
+    pub(super) fn at(&self, handle: Handle) -> [f64; 3] {
+        self.pose(handle).translation.vector.into()
+    }
+
+    /// A floor whose top is at height 0.
+    pub(super) fn floor(&mut self) -> Handle {
+        self.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true)
     }
 
     pub(super) fn height(&self, handle: Handle) -> f64 {

@@ -3,10 +3,13 @@
 mod bench;
 mod chains;
 mod contacts;
+mod driven;
+mod free_bodies;
 mod joints;
 mod loops;
 mod random_trees;
 mod sleep;
+mod surfaces;
 
 use bench::{Bench, STEP, along_y, near};
 
