@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::current::{Frame, current};
 use super::ffi::Value;
 use super::functions::{self, Function};
-use super::old;
 use super::signature::{self, Param, Size, Symbol};
 use scene::Data;
 use scene::numbers;
@@ -44,14 +43,12 @@ pub struct Interface(Vec<Bound>);
 /// What programs call that load the library of CoppeliaSim 4.1, whose numbers have single precision. `launch` has the functions that
 /// start and end a simulator.
 pub fn interface_41(launch: &[(&'static str, Function)]) -> Interface {
-    let own = [old::FUNCTIONS.concat(), launch.to_vec()].concat();
-    Interface::new(include_str!("symbols_41.tsv"), &own, false)
+    Interface::new(include_str!("symbols_41.tsv"), launch, false)
 }
 
 /// The same of CoppeliaSim 4.10, whose numbers have double precision: what plugins call, and `launch`.
 pub fn interface_410(launch: &[(&'static str, Function)]) -> Interface {
-    let own = [old::FUNCTIONS.concat(), launch.to_vec()].concat();
-    Interface::new(include_str!("symbols_410.tsv"), &own, true)
+    Interface::new(include_str!("symbols_410.tsv"), launch, true)
 }
 
 /// What plugins call: the interface of CoppeliaSim 4.10.

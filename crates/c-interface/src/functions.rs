@@ -107,7 +107,7 @@ pub(super) fn find(name: &str) -> Option<Function> {
     let mut functions = FUNCTIONS
         .iter()
         .chain(registration::FUNCTIONS)
-        .chain(scene_functions::FUNCTIONS);
+        .chain(scene_functions::FUNCTIONS.into_iter().flatten());
     functions
         .find(|(known, _)| *known == name)
         .map(|&(_, function)| function)

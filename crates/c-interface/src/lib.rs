@@ -16,7 +16,6 @@ mod dispatch;
 #[expect(unsafe_code, reason = "an edge to C")]
 mod ffi;
 mod functions;
-mod old;
 mod own_library;
 mod plugins;
 mod registration;

@@ -1,4 +1,4 @@
-//! Meshes by addresses: imported, exported, reduced, with their looks; terrain and textures.
+//! Meshes by addresses: imported, exported, reduced, with their appearance; terrain and textures.
 
 use scene::{Data, Key};
 

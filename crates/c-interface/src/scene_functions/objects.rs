@@ -1,7 +1,7 @@
-//! Functions that scripts have too, but in C with other parameters or results.
+//! Objects and sensors by name and handle, contacts, names of data, serial ports.
 
-use super::dispatch::Call;
-use super::functions::{Answer, Function};
+use crate::dispatch::Call;
+use crate::functions::{Answer, Function};
 use scene::numbers;
 use scene::{Data, Key};
 
@@ -29,11 +29,6 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
         packets(call, "sim.checkVisionSensor")
     }),
     ("contact.info", contact),
-    ("engine.bool", |call| engine(call, "sim.getEngineBoolParam")),
-    ("engine.int", |call| engine(call, "sim.getEngineInt32Param")),
-    ("engine.float", |call| {
-        engine(call, "sim.getEngineFloatParam")
-    }),
     ("names.persistent", |call| {
         names(call, "sim.getPersistentDataTags")
     }),
@@ -127,22 +122,6 @@ fn contact(call: &Call<'_>) -> Answer {
         Data::Array(objects),
         Data::Array(numbers),
     ])
-}
-
-/// The value, and whether there is one.
-fn engine(call: &Call<'_>, function: &str) -> Answer {
-    if *call.arg(2) != Data::Nil {
-        return Err("an object must be named by its handle".into());
-    }
-    let mut results = match call.frame.host.call(function, &call.args[..2]) {
-        Ok(results) => results,
-        Err(reason) => {
-            call.frame.shared.last_error.replace(Some(reason));
-            return Ok(vec![Data::Int(-1), Data::Bool(false)]);
-        }
-    };
-    results.push(Data::Bool(true));
-    Ok(results)
 }
 
 /// Names, each with a NUL behind it, and how many they are.
