@@ -6,7 +6,6 @@
 mod approximated;
 mod callbacks;
 mod coverage;
-mod literal;
 mod lua;
 mod markdown;
 mod modules;

@@ -1,8 +1,6 @@
 //! A function as described by its documentation.
 
-use super::literal::literal;
 use api::ApiFn;
-use script::DefaultValue;
 
 /// One documented function.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,7 +52,7 @@ impl FunctionDoc {
         let parameters = function.params.iter().map(|param| ParameterDoc {
             name: param.name.to_owned(),
             ty: param.ty.to_owned(),
-            default: param.default.map(shown),
+            default: param.default.map(|default| default.text()),
             text: doc.of_parameter(param.name),
         });
         Self {
@@ -234,19 +232,12 @@ impl Doc {
     }
 }
 
-/// A default value as a script would write it.
-fn shown(default: DefaultValue) -> String {
-    default
-        .constant
-        .map_or_else(|| literal(&(default.value)()), str::to_owned)
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::HashMap;
 
-    use super::literal;
     use modules::ALL;
+    use script::literal;
     use script::pairs;
 
     #[test]

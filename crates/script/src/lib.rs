@@ -60,6 +60,7 @@ pub use binding::args::{
     Rest, ScriptFunction, Table,
 };
 pub use binding::hooks::{Hooks, Host, ModuleHook};
+pub use binding::literal::literal;
 pub use binding::module::{Module, Outside};
 pub use binding::operand::{Operand, arranged};
 pub use binding::param::{DefaultValue, Param};

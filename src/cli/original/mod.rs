@@ -3,6 +3,8 @@
 use std::net::{Ipv4Addr, TcpListener};
 
 use clap::Parser;
+use scene::Data;
+use script::literal;
 
 use super::remote::LEGACY_PORT;
 use super::{Cli, Command, Outcome, serve};
@@ -103,7 +105,11 @@ impl Start {
 
     /// The add-on that does what the options say when the scene is there.
     fn add_on(&self) -> String {
-        let arguments: Vec<String> = self.arguments.iter().map(|text| literal(text)).collect();
+        let arguments: Vec<String> = self
+            .arguments
+            .iter()
+            .map(|text| literal(&Data::text(text)))
+            .collect();
         format!(
             "local options = {{starts = {}, time = {}, quits = {}, arguments = {{{}}}, code = {}}}\n{STARTER}",
             self.starts,
@@ -111,15 +117,9 @@ impl Start {
                 .map_or("math.huge".to_owned(), |time| format!("{time} / 1000")),
             self.quits,
             arguments.join(", "),
-            literal(&self.code),
+            literal(&Data::text(&self.code)),
         )
     }
-}
-
-/// A text as Lua reads it.
-fn literal(text: &str) -> String {
-    let escaped: String = text.bytes().map(|byte| format!("\\{byte:03}")).collect();
-    format!("'{escaped}'")
 }
 
 fn unknown(arg: &str) -> String {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use scene::{Data, Key};
 
 /// The value in Lua.
-pub(super) fn literal(value: &Data) -> String {
+pub fn literal(value: &Data) -> String {
     match value {
         Data::Nil => "nil".to_owned(),
         Data::Bool(value) => value.to_string(),

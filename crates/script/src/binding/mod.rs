@@ -8,6 +8,7 @@ pub(crate) mod by_handle;
 pub(crate) mod data;
 pub(crate) mod embedded;
 pub(crate) mod hooks;
+pub(crate) mod literal;
 pub(crate) mod module;
 pub(crate) mod operand;
 mod outside;

@@ -1,6 +1,7 @@
 //! The parameters of a scriptable function, as its row describes them.
 
 use super::args::{Absence, FromScript};
+use super::literal::literal;
 use scene::Data;
 
 /// One parameter of a scriptable function.
@@ -25,22 +26,10 @@ pub struct DefaultValue {
 }
 
 impl DefaultValue {
-    /// The constant, or the value as a script would write it where that is short.
+    /// The constant, or the value as a script would write it.
     pub fn text(self) -> String {
-        let value = match (self.constant, (self.value)()) {
-            (Some(constant), _) => return constant.to_owned(),
-            (None, value) => value,
-        };
-        match value {
-            Data::Nil => "nil".to_owned(),
-            Data::Bool(value) => value.to_string(),
-            Data::Int(value) => value.to_string(),
-            Data::Float(value) => format!("{value:?}"),
-            Data::Text(text) | Data::Buffer(text) => {
-                format!("'{}'", String::from_utf8_lossy(&text))
-            }
-            Data::Array(_) | Data::Map(_) => "{}".to_owned(),
-        }
+        self.constant
+            .map_or_else(|| literal(&(self.value)()), str::to_owned)
     }
 }
 
