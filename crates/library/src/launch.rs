@@ -148,16 +148,26 @@ fn run(call: &Call<'_>) -> Answer {
 }
 
 fn init() -> Answer {
-    let launch = match &state().phase {
+    let state = state();
+    let launch = match &state.phase {
         Phase::Launched(launch) => launch.clone(),
         Phase::Running => return Err(BUSY.into()),
         Phase::Idle => {
             return Err("simExtLaunchUIThread has to be called first, by another thread".into());
         }
     };
-    session::begin(&launch)?;
-    let mut state = state();
-    (state.phase, state.is_stopped) = (Phase::Running, true);
+    start(state, &launch)
+}
+
+/// Starts a simulator on this thread. Meanwhile no other thread can.
+fn start(mut state: MutexGuard<'_, State>, launch: &Launch) -> Answer {
+    let before = std::mem::replace(&mut state.phase, Phase::Running);
+    (state.is_stopped, state.exit_is_requested) = (true, false);
+    drop(state);
+    session::begin(launch).inspect_err(|_| {
+        self::state().phase = before;
+        ENDED.notify_all();
+    })?;
     answer(true)
 }
 
@@ -172,19 +182,16 @@ fn destroy() -> Answer {
 
 /// Parameters: folder of the library, options of windows.
 fn initialize(call: &Call<'_>) -> Answer {
-    let launch = Launch {
-        root: call.text(0).map(PathBuf::from).unwrap_or_default(),
-        verbosity: state().verbosity.clone(),
-        ..Launch::default()
-    };
-    if !matches!(state().phase, Phase::Idle) {
+    let state = state();
+    if !matches!(state.phase, Phase::Idle) {
         return Err(BUSY.into());
     }
-    session::begin(&launch)?;
-    let mut state = state();
-    (state.phase, state.is_stopped) = (Phase::Running, true);
-    state.exit_is_requested = false;
-    answer(true)
+    let launch = Launch {
+        root: call.text(0).map(PathBuf::from).unwrap_or_default(),
+        verbosity: state.verbosity.clone(),
+        ..Launch::default()
+    };
+    start(state, &launch)
 }
 
 /// Until the next simulator has ended, or somebody asks for the end while there is none.
