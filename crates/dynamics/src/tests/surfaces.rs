@@ -1,4 +1,4 @@
-//! Surfaces: friction, rebounds, belts, seams, fast bodies, and where contacts are.
+//! Surfaces: friction, restitution, belts, seams, fast bodies, and where contacts are.
 
 use super::*;
 use scene::shape::{Material, RespondableMask};
@@ -44,7 +44,7 @@ fn frictions_of_two_materials_are_combined_as_the_engine_does() {
 }
 
 /// How high a ball rises again that falls from 0.5 m; metres.
-fn rebound(restitutions: [f64; 2], callback: Option<ContactCallback<'_>>) -> f64 {
+fn height_of_bounce(restitutions: [f64; 2], callback: Option<ContactCallback<'_>>) -> f64 {
     let mut bench = Bench::new();
     let floor = bench.floor();
     let ball = bench.shape([0.1; 3], [0.0, 0.0, 0.55], 1.0, true, true);
@@ -62,19 +62,23 @@ fn rebound(restitutions: [f64; 2], callback: Option<ContactCallback<'_>>) -> f64
 }
 
 #[test]
-fn bodies_rebound_by_the_product_of_their_restitutions() {
-    near(rebound([1.0, 0.8], None), 0.32, 0.02);
-    near(rebound([0.7, 0.7], None), 0.12, 0.02);
-    near(rebound([0.0, 1.0], None), 0.0, 1e-3);
+fn bodies_bounce_by_the_product_of_their_restitutions() {
+    near(height_of_bounce([1.0, 0.8], None), 0.32, 0.02);
+    near(height_of_bounce([0.7, 0.7], None), 0.12, 0.02);
+    near(height_of_bounce([0.0, 1.0], None), 0.0, 1e-3);
 }
 
 #[test]
-fn a_script_decides_how_two_bodies_rebound_and_slide() {
+fn a_script_decides_how_two_bodies_bounce_and_slide() {
     let bouncy = ContactResponse::Collide {
         friction: 0.5,
         restitution: 0.8,
     };
-    near(rebound([0.0, 0.0], Some(&|_, _| bouncy)), 0.32, 0.02);
+    near(
+        height_of_bounce([0.0, 0.0], Some(&|_, _| bouncy)),
+        0.32,
+        0.02,
+    );
     let slippery = ContactResponse::Collide {
         friction: 0.1,
         restitution: 0.0,

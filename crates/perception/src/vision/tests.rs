@@ -200,11 +200,14 @@ fn voxels_are_cubes_without_inner_faces() {
 fn lights_that_are_not_attached_do_not_count_where_only_those_do() {
     let mut studio = Studio::new();
     let cube = studio.cube(2.0);
-    let looks = |object: &mut scene::Object| {
+    let appearance = |object: &mut scene::Object| {
         let colour = &mut object.shape_mut().unwrap().parts[0].appearance.colour;
         (colour.emission, colour.ambient_diffuse) = ([0.0; 3], [1.0; 3]);
     };
-    studio.scene.modify(cube, Field::Appearance, looks).unwrap();
+    studio
+        .scene
+        .modify(cube, Field::Appearance, appearance)
+        .unwrap();
     studio
         .scene
         .modify_settings(|settings| settings.environment.ambient_light = [0.0; 3]);

@@ -141,12 +141,12 @@ fn shapes_with_all_switches() {
         shape.mass.set_mass(3.0);
         let part = &mut shape.parts[0];
         part.mass = shape.mass;
-        let looks = &mut part.appearance;
-        (looks.edges, looks.culling, looks.wireframe) = (on, !on, on);
-        looks.edge_borders_hidden = !on;
-        (looks.shading_angle, looks.edge_angle) = (0.25, 0.75);
-        (looks.colour, looks.colour_name) = (COLOUR, "paint".into());
-        looks.colour_extension = "openGL3 {}".into();
+        let appearance = &mut part.appearance;
+        (appearance.edges, appearance.culling, appearance.wireframe) = (on, !on, on);
+        appearance.edge_borders_hidden = !on;
+        (appearance.shading_angle, appearance.edge_angle) = (0.25, 0.75);
+        (appearance.colour, appearance.colour_name) = (COLOUR, "paint".into());
+        appearance.colour_extension = "openGL3 {}".into();
         on_shape(&mut scene, shape);
     }
     returned(&scene);
@@ -156,10 +156,10 @@ fn shapes_with_all_switches() {
 fn terrains_and_meshes_beside_their_frame() {
     let mut scene = Scene::new();
     let heights = [0.0, 0.5, 0.25, 0.125, 1.0, 0.75];
-    let looks = Shape::terrain_appearance();
+    let appearance = Shape::terrain_appearance();
     on_shape(
         &mut scene,
-        Shape::terrain(3, 2, 2.0, &heights, looks, false).unwrap(),
+        Shape::terrain(3, 2, 2.0, &heights, appearance, false).unwrap(),
     );
     let corners = [
         [1.0, 2.0, 3.0],

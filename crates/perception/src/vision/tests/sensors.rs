@@ -93,8 +93,8 @@ fn surfaces_may_be_seen_from_one_side_only_and_let_light_through() {
     let cube = studio.cube(0.0);
     let near = |studio: &mut Studio, culling: bool, opacity: f32| {
         let change = |object: &mut scene::Object| {
-            let looks = &mut object.shape_mut().unwrap().parts[0].appearance;
-            (looks.culling, looks.colour.opacity) = (culling, opacity);
+            let appearance = &mut object.shape_mut().unwrap().parts[0].appearance;
+            (appearance.culling, appearance.colour.opacity) = (culling, opacity);
         };
         studio
             .scene

@@ -97,13 +97,13 @@ fn copies_of_a_model_have_companions_of_their_own() {
         .expect("it was copied");
     let hit = scene.collision_objects().get(hit).expect("it exists");
     assert_eq!((hit.entities, hit.explicit), ([links, special::ALL], true));
-    let gap = scene
+    let distance = scene
         .distance_objects()
         .named("arm_gap#0")
         .expect("it was copied");
-    let gap = scene.distance_objects().get(gap).expect("it exists");
+    let distance = scene.distance_objects().get(distance).expect("it exists");
     assert_eq!(
-        (gap.entities, gap.threshold),
+        (distance.entities, distance.threshold),
         ([base.raw(), tip.raw()], 0.5)
     );
 }

@@ -78,19 +78,19 @@ impl Stages {
             SysCall::Sensing => {
                 do_call(self.sensing_start, &[NOT_EXPLICIT])?;
                 do_call(self.sensors, &[])?;
-                self.tell(env, call)
+                self.notify(env, call)
             }
             SysCall::Cleanup => {
                 do_call(self.simulation, &[Data::Int(call as i64)])?;
                 do_call(self.reset_proximity, &[NOT_EXPLICIT])?;
                 do_call(self.reset_vision, &[NOT_EXPLICIT])
             }
-            _ => self.tell(env, call),
+            _ => self.notify(env, call),
         }
     }
 
     fn actuate(&self, env: &Env) -> Result<(), ScriptError> {
-        self.tell(env, SysCall::Actuation)?;
+        self.notify(env, SysCall::Actuation)?;
         do_call(env, self.joint_motion, &[])?;
         let sim = env.sim.upgrade();
         let dt = Data::Float(sim.map_or(0.0, |sim| sim.scene.borrow().settings().time_step));
@@ -99,7 +99,7 @@ impl Stages {
     }
 
     /// Calls a callback of all other scripts.
-    fn tell(&self, env: &Env, call: SysCall) -> Result<(), ScriptError> {
+    fn notify(&self, env: &Env, call: SysCall) -> Result<(), ScriptError> {
         for function in [self.embedded, self.add_ons, self.sandbox] {
             do_call(env, function, &[Data::Int(call as i64)])?;
         }

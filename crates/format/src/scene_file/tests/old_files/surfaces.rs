@@ -45,26 +45,26 @@ fn switches_of_shapes() {
         [true, true, false, false, false]
     );
     assert_eq!(dynamics(0, None, Some(1)), [true, true, false, true, false]);
-    let looks = |switches| {
+    let switched = |switches| {
         let data = MeshData {
             switches: Some(switches),
             ..cube()
         };
-        let looks = shape(simple(MeshNode::default(), data)).parts[0]
+        let appearance = shape(simple(MeshNode::default(), data)).parts[0]
             .appearance
             .clone();
         [
-            looks.edges,
-            looks.culling,
-            looks.wireframe,
-            looks.edge_borders_hidden,
+            appearance.edges,
+            appearance.culling,
+            appearance.wireframe,
+            appearance.edge_borders_hidden,
         ]
     };
-    assert_eq!(looks(0x1), [true, false, false, false]);
-    assert_eq!(looks(0x2), [false, true, false, false]);
-    assert_eq!(looks(0x4), [false, false, true, false]);
+    assert_eq!(switched(0x1), [true, false, false, false]);
+    assert_eq!(switched(0x2), [false, true, false, false]);
+    assert_eq!(switched(0x4), [false, false, true, false]);
     assert_eq!(
-        [looks(0x80), looks(0x78)],
+        [switched(0x80), switched(0x78)],
         [[false, false, false, true], [false; 4]]
     );
     let angles = |shading, edge_threshold_angle| {
@@ -73,10 +73,10 @@ fn switches_of_shapes() {
             edge_threshold_angle,
             ..cube()
         };
-        let looks = shape(simple(MeshNode::default(), data)).parts[0]
+        let appearance = shape(simple(MeshNode::default(), data)).parts[0]
             .appearance
             .clone();
-        (looks.shading_angle, looks.edge_angle)
+        (appearance.shading_angle, appearance.edge_angle)
     };
     assert_eq!(
         [
