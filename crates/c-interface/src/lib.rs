@@ -6,7 +6,7 @@
 //!
 //! What both open is generated: `build.rs` makes a C function for each row of a table of symbols. It passes its parameters to
 //! [`Interface::perform`], which makes values of them and calls the function that the row names. Which simulator is meant follows from
-//! the thread (`current`).
+//! the thread (`current`). [`folder`] writes what programs take for an installation.
 //!
 //! This layer knows values, and of the simulator what is in [`Host`]. Scripts and the scene are above it.
 
@@ -15,6 +15,7 @@ mod current;
 mod dispatch;
 #[expect(unsafe_code, reason = "an edge to C")]
 mod ffi;
+pub mod folder;
 mod functions;
 mod own_library;
 mod plugins;

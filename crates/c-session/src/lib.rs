@@ -1,8 +1,8 @@
-//! The simulator as a shared library: what is behind `libcoppeliaSim.so`.
+//! The simulator of a process that calls CoppeliaSim's C functions.
 //!
-//! That library is generated from a table of symbols (`c-interface`). It lies beside this one and calls [`swanilda_library_call`] for
-//! each function. A program starts a simulator on a thread of its own choice ([`launch`]); from then on that thread's calls reach it
-//! ([`session`]). Calls by other threads are errors.
+//! A program starts a simulator on a thread of its own choice ([`launch`]); from then on that thread's calls reach it ([`session`]).
+//! Calls by other threads are errors. Shared libraries that contain this export [`call`] as `swanilda_library_call`: the generated
+//! `libcoppeliaSim.so` (`c-interface`) lies beside them and calls it for each function.
 
 mod add_ons;
 mod launch;
@@ -11,11 +11,9 @@ mod unattached;
 
 use std::sync::Once;
 
-use c_interface::{INTERFACE_41, INTERFACE_410, Interface, Value, interface_41, interface_410};
+pub use c_interface::Value;
+use c_interface::{INTERFACE_41, INTERFACE_410, Interface, interface_41, interface_410};
 use heap::Lazy;
-
-#[global_allocator]
-static ALLOCATOR: heap::Allocator = heap::Allocator;
 
 static OF_41: Lazy<Interface> = Lazy::new(|| interface_41(launch::FUNCTIONS));
 static OF_410: Lazy<Interface> = Lazy::new(|| interface_410(launch::FUNCTIONS));
@@ -24,22 +22,16 @@ static OF_410: Lazy<Interface> = Lazy::new(|| interface_410(launch::FUNCTIONS));
 /// what C returns, but numbers that are no integers: those are the last value.
 ///
 /// # Safety
-/// Only the generated library calls this.
+/// `values` are `count` values as the generated library makes them for that row.
 #[expect(unsafe_code, reason = "an edge to C")]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swanilda_library_call(
-    interface: u32,
-    row: u32,
-    values: *mut Value,
-    count: u32,
-) -> i64 {
+pub unsafe fn call(interface: u32, row: u32, values: *mut Value, count: u32) -> i64 {
     unattached::attach_thread();
     let interface = match interface {
         INTERFACE_41 => &*OF_41,
         INTERFACE_410 => &*OF_410,
         _ => return foreign(),
     };
-    // SAFETY: the generated library has made the values for this row.
+    // SAFETY: as the caller says.
     unsafe { interface.call_from_c(row, values, count) }
 }
 
@@ -48,7 +40,7 @@ fn foreign() -> i64 {
     static SAID: Once = Once::new();
     SAID.call_once(|| {
         eprintln!(
-            "swanilda: libcoppeliaSim.so and libswanilda_library.so are of different builds: write the folder again with `swanilda library`."
+            "swanilda: libcoppeliaSim.so and libswanilda_library.so are of different builds: write the folder again."
         );
     });
     -1

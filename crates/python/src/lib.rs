@@ -10,6 +10,7 @@ mod console;
 mod convert;
 mod errors;
 mod host;
+mod library;
 mod lua_tests;
 mod making;
 mod module;
@@ -31,6 +32,8 @@ mod _swanilda {
     use crate::branches::Snapshot;
     #[pymodule_export]
     use crate::errors::Error;
+    #[pymodule_export]
+    use crate::library::write_library;
     #[pymodule_export]
     use crate::lua_tests::{list_tests, run_tests};
     #[pymodule_export]
