@@ -2,23 +2,41 @@
 
 use std::collections::BTreeMap;
 
+/// Large blocks that are kept for further use when they are released, and their least length in words. Pictures are asked for in each step,
+/// and new memory of that size costs more than to fill it.
+const SPARES: usize = 8;
+const LARGE: usize = 4096;
+
 /// The memory, by its address. It consists of words, so that numbers of all kinds can lie there.
 #[derive(Debug, Default)]
-pub(super) struct Buffers(BTreeMap<usize, Box<[u64]>>);
+pub(super) struct Buffers {
+    used: BTreeMap<usize, Vec<u64>>,
+    spares: Vec<Vec<u64>>,
+}
 
 impl Buffers {
     /// Keeps bytes with a NUL behind them; returns their address.
     pub fn add(&mut self, bytes: &[u8]) -> i64 {
-        let word = |bytes: &[u8]| {
-            let mut word = [0; 8];
-            word[..bytes.len()].copy_from_slice(bytes);
-            u64::from_ne_bytes(word)
-        };
-        // One word more than needed, for the NUL.
-        let mut words: Box<[u64]> = bytes.chunks(8).map(word).chain([0]).collect();
+        let (whole, rest) = bytes.as_chunks();
+        // What is left of the bytes, and the NUL.
+        let mut last = [0; 8];
+        last[..rest.len()].copy_from_slice(rest);
+        let mut words = self.empty(whole.len() + 1);
+        words.extend(whole.iter().map(|word| u64::from_ne_bytes(*word)));
+        words.push(u64::from_ne_bytes(last));
         let address = words.as_mut_ptr().expose_provenance();
-        self.0.insert(address, words);
+        self.used.insert(address, words);
         (address as u64).cast_signed()
+    }
+
+    /// A block without words, with room for `length` of them.
+    fn empty(&mut self, length: usize) -> Vec<u64> {
+        let fits = |spare: &Vec<u64>| (length..=2 * length).contains(&spare.capacity());
+        let spare = self.spares.iter().position(fits);
+        let mut words = spare.map_or_else(Vec::new, |at| self.spares.swap_remove(at));
+        words.clear();
+        words.reserve_exact(length);
+        words
     }
 
     /// Keeps a list of addresses of texts, and behind it the texts; returns its address.
@@ -28,7 +46,7 @@ impl Buffers {
         let start = self.add(&[vec![0; 8 * texts.len()], bytes].concat());
         let Some(words) = usize::try_from(start)
             .ok()
-            .and_then(|start| self.0.get_mut(&start))
+            .and_then(|start| self.used.get_mut(&start))
         else {
             return 0;
         };
@@ -42,10 +60,13 @@ impl Buffers {
 
     /// Releases it; false where the simulator has made nothing there. What lies in a larger block is released with it.
     pub fn release(&mut self, address: usize) -> bool {
-        if self.0.remove(&address).is_some() {
+        if let Some(words) = self.used.remove(&address) {
+            if words.len() >= LARGE && self.spares.len() < SPARES {
+                self.spares.push(words);
+            }
             return true;
         }
-        let before = self.0.range(..address).next_back();
+        let before = self.used.range(..address).next_back();
         before.is_some_and(|(start, words)| address < start + 8 * words.len())
     }
 }
@@ -53,6 +74,19 @@ impl Buffers {
 #[cfg(test)]
 mod tests {
     use super::Buffers;
+
+    #[test]
+    fn blocks_that_are_used_again_have_the_new_bytes() {
+        let mut buffers = Buffers::default();
+        let address = |number: i64| usize::try_from(number).expect("an address");
+        let long = buffers.add(&[7; 80_000]);
+        assert!(buffers.release(address(long)));
+        assert!(!buffers.release(address(long)));
+        let again = buffers.add(&[9; 50_001]);
+        let words = &buffers.used[&address(again)];
+        assert_eq!(words.len(), 50_001 / 8 + 1);
+        assert_eq!(words[6250].to_ne_bytes(), [9, 0, 0, 0, 0, 0, 0, 0]);
+    }
 
     #[test]
     fn only_what_was_made_is_released_and_once() {

@@ -167,18 +167,15 @@ fn bytes_of(ty: char, result: Option<Data>, length: &mut usize) -> Option<Vec<u8
     let (size, bytes): (usize, Vec<u8>) = match (ty, result) {
         ('I', Some(Data::Array(items))) => {
             let integer = |item| numbers::low_i32(super::dispatch::integer(item)).to_ne_bytes();
-            (4, items.iter().flat_map(integer).collect())
+            (4, flattened(items.iter().map(integer)))
         }
         ('D', Some(Data::Array(items))) => (
             8,
-            items
-                .iter()
-                .flat_map(|item| number(item).to_ne_bytes())
-                .collect(),
+            flattened(items.iter().map(|item| number(item).to_ne_bytes())),
         ),
         ('F', Some(Data::Array(items))) => {
             let single = |item| numbers::single(number(item)).to_ne_bytes();
-            (4, items.iter().flat_map(single).collect())
+            (4, flattened(items.iter().map(single)))
         }
         // Packed already.
         ('F', Some(Data::Buffer(bytes))) => (4, bytes),
@@ -190,6 +187,10 @@ fn bytes_of(ty: char, result: Option<Data>, length: &mut usize) -> Option<Vec<u8
     };
     *length = bytes.len() / size;
     Some(bytes)
+}
+
+fn flattened<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> Vec<u8> {
+    numbers.collect::<Vec<_>>().into_flattened()
 }
 
 fn number(item: &Data) -> f64 {

@@ -29,9 +29,16 @@ impl Workers {
             .map_or(0, |others| others.current_num_threads())
     }
 
-    /// Calls `work` once for each item. Who does which item is not determined; the items hold the results, in their order.
-    pub fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
-        let helpers = items.len().min(self.count()).saturating_sub(1);
+    /// Calls `work` once for each item. Who does which item is not determined; the items hold the results, in their order. A thread
+    /// that would have less than `least` of them is not woken: to wake it takes longer than that work.
+    pub fn for_each<T: Send>(
+        &self,
+        items: &mut [T],
+        least: usize,
+        work: impl Fn(usize, &mut T) + Sync,
+    ) {
+        let threads = (items.len() / least).min(self.count());
+        let helpers = threads.saturating_sub(1);
         let queue = Mutex::new(items.iter_mut().enumerate());
         let run = || {
             while let Some((at, item)) = next(&queue) {

@@ -12,8 +12,12 @@ use crate::{Camera, Channels, Picture, World};
 /// Rows of a strip, at most. The fragments of a strip are in memory at the same time.
 const STRIP_ROWS: usize = 512;
 
-/// Pixels of a strip, at least: for less, other threads are not woken.
+/// Pixels of a strip, at least.
 const STRIP_PIXELS: usize = 2048;
+
+/// What a thread draws at least: pixels, and chunks of triangles.
+const THREAD_PIXELS: usize = 16_384;
+const THREAD_CHUNKS: usize = 4;
 
 /// Draws pictures. It keeps its memory between them.
 #[derive(Debug, Default)]
@@ -61,9 +65,10 @@ impl Renderer {
         };
         let owners = owners(world, &view, channels);
         self.list_pieces(&owners, &view);
-        self.workers.for_each(self.chunks.all_mut(), |_, chunk| {
-            chunk.project(&owners, &view);
-        });
+        self.workers
+            .for_each(self.chunks.all_mut(), THREAD_CHUNKS, |_, chunk| {
+                chunk.project(&owners, &view);
+            });
         let shading = Shading {
             view: &view,
             owners: &owners,
@@ -109,7 +114,8 @@ fn fill(shading: &Shading, workers: &Workers, strips: &mut Vec<Strip>, picture: 
         (strip, Pixels { colour, depth, ids })
     });
     let mut parts: Vec<_> = parts.collect();
-    workers.for_each(&mut parts, |at, (strip, pixels)| {
+    let least = THREAD_PIXELS.div_ceil(width * rows);
+    workers.for_each(&mut parts, least, |at, (strip, pixels)| {
         strip.fill(shading, at * rows..height.min((at + 1) * rows), pixels);
     });
 }

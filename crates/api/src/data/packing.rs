@@ -75,7 +75,8 @@ macro_rules! number_lists {
             _cx: &Cx, numbers: Vec<$item>, #[default(0)] start_index: Number, #[default(0)] count: Number,
         ) -> Result<Option<Bytes>> {
             let numbers = range(&numbers, start_index.0, count.0);
-            let bytes: Vec<u8> = numbers.iter().flat_map(|&number| (number as $stored).to_le_bytes()).collect();
+            let bytes = numbers.iter().map(|&number| (number as $stored).to_le_bytes());
+            let bytes = bytes.collect::<Vec<_>>().into_flattened();
             Ok((!bytes.is_empty()).then_some(Bytes(bytes)))
         }
 

@@ -279,10 +279,8 @@ fn get_vision_sensor_depth(
 
 /// 32-bit floats as bytes.
 pub(crate) fn packed(values: &[f32]) -> Vec<u8> {
-    values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect()
+    let values = values.iter().map(|value| value.to_le_bytes());
+    values.collect::<Vec<_>>().into_flattened()
 }
 
 /// 32-bit floats from bytes.

@@ -2,7 +2,7 @@
 
 use scene::Data;
 
-use super::pointers::{integers_of, packed};
+use super::pointers::integers_of;
 use crate::dispatch::Call;
 use crate::functions::{Answer, Function};
 
@@ -26,11 +26,12 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
 
 /// Red, green, blue of each pixel, 0 to 1, the lowest row first.
 fn image(call: &Call<'_>) -> Answer {
-    let levels: Vec<f32> = pixels(call)?
-        .iter()
-        .map(|&level| f32::from(level) / 255.0)
-        .collect();
-    Ok(vec![packed(&levels)])
+    let levels: [[u8; 4]; 256] = std::array::from_fn(|level| (level as f32 / 255.0).to_ne_bytes());
+    let pixels = pixels(call)?.into_iter();
+    let pixels = pixels.map(|level| levels[usize::from(level)]);
+    Ok(vec![Data::Buffer(
+        pixels.collect::<Vec<_>>().into_flattened(),
+    )])
 }
 
 /// Bytes, width and height.

@@ -210,13 +210,3 @@ pub(super) fn integers_of(data: &Data) -> Vec<i32> {
     let integer = |item| numbers::low_i32(crate::dispatch::integer(item));
     items.iter().map(integer).collect()
 }
-
-/// Floats packed as C reads them.
-pub(super) fn packed(values: &[f32]) -> Data {
-    Data::Buffer(
-        values
-            .iter()
-            .flat_map(|value| value.to_ne_bytes())
-            .collect(),
-    )
-}

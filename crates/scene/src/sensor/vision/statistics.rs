@@ -69,6 +69,35 @@ impl Statistics {
     }
 }
 
+/// Numbers that are compared and added at a time. Part of the sum is each one's that stands at the same place of a block.
+const LANES: usize = 8;
+
+/// The smallest and the largest number, and the sum.
+fn extremes_and_sum(numbers: &[f32]) -> (f32, f32, f64) {
+    let (mut smallest, mut largest) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+    let mut sums = [0.0; LANES];
+    for block in numbers.chunks(LANES) {
+        for (at, &number) in block.iter().enumerate() {
+            smallest[at] = if number < smallest[at] {
+                number
+            } else {
+                smallest[at]
+            };
+            largest[at] = if number > largest[at] {
+                number
+            } else {
+                largest[at]
+            };
+            sums[at] += f64::from(number);
+        }
+    }
+    (
+        smallest.into_iter().fold(f32::INFINITY, f32::min),
+        largest.into_iter().fold(f32::NEG_INFINITY, f32::max),
+        sums.iter().sum(),
+    )
+}
+
 impl VisionSensor {
     /// First packet of a picture, made by the simulator: its statistics, unless they are switched off.
     pub fn first_packet(&self) -> Vec<f32> {
@@ -85,12 +114,8 @@ impl VisionSensor {
         let pixels = self.pixels() as u64;
         let means = colours.sums.map(|sum| (sum / pixels) as u8);
         let (image, depth) = ([colours.smallest, colours.largest, means], self.depth());
-        let total: f64 = depth.iter().map(|&depth| f64::from(depth)).sum();
-        let depths = [
-            depth.iter().copied().fold(f32::INFINITY, f32::min),
-            depth.iter().copied().fold(f32::NEG_INFINITY, f32::max),
-            (total / pixels as f64) as f32,
-        ];
+        let (smallest, largest, total) = extremes_and_sum(&depth);
+        let depths = [smallest, largest, (total / pixels as f64) as f32];
         let rows = image.into_iter().zip(depths);
         rows.flat_map(|(levels, depth)| {
             levels
