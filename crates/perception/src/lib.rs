@@ -52,6 +52,12 @@ impl Perception {
         }
     }
 
+    /// Begins the random numbers again.
+    pub fn set_seed(&mut self, seed: u32) {
+        self.seed = seed;
+        self.random = None;
+    }
+
     /// The index, up to date with the scene.
     fn index(&mut self, scene: &Scene) -> &Index {
         self.index.update(scene);

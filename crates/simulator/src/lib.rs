@@ -16,6 +16,8 @@ mod picture;
 mod playback;
 mod run;
 mod scene;
+#[cfg(test)]
+mod seed_tests;
 mod servers;
 #[cfg(test)]
 mod state_hash_tests;
@@ -52,7 +54,7 @@ pub use script::{
     CacheFolder, ChangedValue, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost,
     RosOptions, ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
 };
-pub use viewing::{Happenings, PropertyRow, property_rows, property_setter};
+pub use viewing::{Happenings, PropertyRow, property_getter, property_rows, property_setter};
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

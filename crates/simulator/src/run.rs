@@ -1,6 +1,6 @@
 //! A whole run: loop iterations until scripts, a limit or the caller ends it.
 
-use super::Simulator;
+use super::{Error, Simulator};
 use script::SimulationState;
 
 /// How a run comes to its end, unless a script ends it.
@@ -149,6 +149,16 @@ impl Run {
 }
 
 impl Simulator {
+    /// All random numbers begin again as with this seed, which also holds for scripts to come. Those of scripts in Python begin with the
+    /// script only.
+    ///
+    /// # Errors
+    /// When the generator of a script refuses.
+    pub fn set_seed(&mut self, seed: u32) -> Result<(), Error> {
+        self.copied(|sim| sim.set_seed(seed).map_err(|error| error.text))
+            .map_err(Error::Script)
+    }
+
     /// Starts the simulation and runs it to its end; one more loop iteration follows, as in CoppeliaSim when it is closed.
     pub fn run(&mut self, limits: RunLimits, observer: &mut dyn RunObserver) -> RunTotals {
         Run::begin(self, limits).finish(self, observer)

@@ -251,23 +251,32 @@ pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, Api
     Ok(rows)
 }
 
+/// The function with which scripts read a property of that type.
+pub fn property_getter(ty: ValueType) -> &'static str {
+    access(ty).0
+}
+
 /// The function with which scripts set a property of that type.
 pub fn property_setter(ty: ValueType) -> &'static str {
+    access(ty).1
+}
+
+fn access(ty: ValueType) -> (&'static str, &'static str) {
     match ty {
-        ValueType::Bool => "sim.setBoolProperty",
-        ValueType::Int => "sim.setIntProperty",
-        ValueType::Long => "sim.setLongProperty",
-        ValueType::Float => "sim.setFloatProperty",
-        ValueType::String => "sim.setStringProperty",
-        ValueType::Buffer => "sim.setBufferProperty",
-        ValueType::Table => "sim.setTableProperty",
-        ValueType::Vector2 => "sim.setVector2Property",
-        ValueType::Vector3 => "sim.setVector3Property",
-        ValueType::Quaternion => "sim.setQuaternionProperty",
-        ValueType::Pose => "sim.setPoseProperty",
-        ValueType::Color => "sim.setColorProperty",
-        ValueType::FloatArray => "sim.setFloatArrayProperty",
-        ValueType::IntArray => "sim.setIntArrayProperty",
-        ValueType::IntArray2 => "sim.setIntArray2Property",
+        ValueType::Bool => ("sim.getBoolProperty", "sim.setBoolProperty"),
+        ValueType::Int => ("sim.getIntProperty", "sim.setIntProperty"),
+        ValueType::Long => ("sim.getLongProperty", "sim.setLongProperty"),
+        ValueType::Float => ("sim.getFloatProperty", "sim.setFloatProperty"),
+        ValueType::String => ("sim.getStringProperty", "sim.setStringProperty"),
+        ValueType::Buffer => ("sim.getBufferProperty", "sim.setBufferProperty"),
+        ValueType::Table => ("sim.getTableProperty", "sim.setTableProperty"),
+        ValueType::Vector2 => ("sim.getVector2Property", "sim.setVector2Property"),
+        ValueType::Vector3 => ("sim.getVector3Property", "sim.setVector3Property"),
+        ValueType::Quaternion => ("sim.getQuaternionProperty", "sim.setQuaternionProperty"),
+        ValueType::Pose => ("sim.getPoseProperty", "sim.setPoseProperty"),
+        ValueType::Color => ("sim.getColorProperty", "sim.setColorProperty"),
+        ValueType::FloatArray => ("sim.getFloatArrayProperty", "sim.setFloatArrayProperty"),
+        ValueType::IntArray => ("sim.getIntArrayProperty", "sim.setIntArrayProperty"),
+        ValueType::IntArray2 => ("sim.getIntArray2Property", "sim.setIntArray2Property"),
     }
 }

@@ -13,6 +13,7 @@ mod logging;
 mod removals;
 mod runtime;
 mod scripts;
+mod seed;
 mod signal_owners;
 mod sim;
 

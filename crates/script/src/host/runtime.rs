@@ -64,6 +64,14 @@ pub trait Interpreter {
         None
     }
 
+    /// Begins the random numbers of the language's own library again. Where they are out of reach nothing happens: they begin with the script.
+    ///
+    /// # Errors
+    /// When the language refuses.
+    fn seed_random(&self, _seed: u32) -> Result<(), ScriptError> {
+        Ok(())
+    }
+
     /// How often code of the script has called functions of the host: without them it changes nothing but its own variables. None when
     /// they are not counted.
     fn host_calls(&self) -> Option<u64> {

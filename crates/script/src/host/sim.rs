@@ -78,6 +78,7 @@ impl Sim {
             scripts: ScriptSet::new(
                 languages,
                 options.limits.map_or(usize::MAX, |limits| limits.memory),
+                options.seed,
             ),
             options,
             modules: Modules {

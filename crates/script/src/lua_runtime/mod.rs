@@ -230,6 +230,11 @@ impl Interpreter for LuaInterpreter {
         self.state.random_state()
     }
 
+    fn seed_random(&self, seed: u32) -> Result<(), ScriptError> {
+        startup::seed_random(self.state.lua(), seed)
+            .map_err(|error| ScriptError::new(error.to_string()))
+    }
+
     fn host_calls(&self) -> Option<u64> {
         Some(self.stack().owner().host_calls.get())
     }

@@ -17,7 +17,7 @@ use super::{
 use crate::binding::registry::{Member, Namespace};
 use crate::host::{Script, Sim};
 use crate::log::verbosity;
-use crate::lua::{self, LuaError, Stack, State, Type, push_callback, push_plain};
+use crate::lua::{self, LuaError, Stack, State, Type, push_callback, push_plain, seeded};
 
 /// Makes a state ready for a script's text.
 pub(super) fn fill(
@@ -59,7 +59,7 @@ pub(super) fn fill(
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);
-    seed_random(state.lua(), sim.options.seed)?;
+    seed_random(state.lua(), sim.scripts.seed.get())?;
     stack.push_int(stack.env().script.id);
     stack.set_global("sim_script_handle");
     stack.push_int(name_suffix(sim, &stack.env().script));
@@ -114,12 +114,17 @@ fn name_suffix(sim: &Sim, script: &Script) -> i64 {
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator
 /// begins with numbers that do as well, so the seed is scrambled first (the finalizer of SplitMix64).
-fn seed_random(lua: &Lua, seed: u32) -> mlua::Result<()> {
+pub(super) fn seed_random(lua: &Lua, seed: u32) -> mlua::Result<()> {
     let math: Table = lua.globals().get("math")?;
     math.get::<Function>("randomseed")?.call(scrambled(seed))
 }
 
-pub(super) fn scrambled(seed: u32) -> i64 {
+/// The state of these random numbers at their beginning.
+pub(super) fn random_of(seed: u32) -> [u64; 4] {
+    seeded(scrambled(seed))
+}
+
+fn scrambled(seed: u32) -> i64 {
     let mut bits = u64::from(seed).wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -143,7 +143,7 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
         program: interpreter.to_owned(),
         reason,
     };
-    let seed = sim.options.seed.to_string();
+    let seed = sim.scripts.seed.get().to_string();
     let mut variables = vec![(HASH_SEED, seed.as_str())];
     if sim.options.debug_python {
         variables.push((DEBUG, "1"));

@@ -95,7 +95,7 @@ impl Env {
                 delay_ms: Cell::new(2),
                 ..Yields::default()
             },
-            random: RefCell::new(Random::new(sim.options.seed)),
+            random: RefCell::new(Random::new(sim.scripts.seed.get())),
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
             module_states: States::default(),

@@ -49,6 +49,8 @@ pub struct ScriptSet {
     depth: Cell<usize>,
     /// The selection that scripts were last notified of.
     notified_selection: RefCell<Vec<Handle>>,
+    /// What random numbers begin with.
+    pub(crate) seed: Cell<u32>,
     /// What is to be done when a script ends.
     ends: RefCell<Vec<EndOfScript>>,
     /// Vision sensors whose scripts are looking at the picture now.
@@ -56,10 +58,11 @@ pub struct ScriptSet {
 }
 
 impl ScriptSet {
-    /// No scripts yet, which may use `memory` bytes.
-    pub(crate) fn new(languages: Languages, memory: usize) -> Self {
+    /// No scripts yet, which may use `memory` bytes, and whose random numbers begin with `seed`.
+    pub(crate) fn new(languages: Languages, memory: usize, seed: u32) -> Self {
         Self {
             languages,
+            seed: Cell::new(seed),
             budget: Rc::new(Budget::new(memory)),
             debugger: OnceCell::new(),
             is_abandoned: Cell::new(false),

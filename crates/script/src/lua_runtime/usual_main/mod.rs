@@ -5,7 +5,7 @@
 
 mod stages;
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use super::{LuaInterpreter, LuaLanguage, startup};
@@ -14,7 +14,7 @@ use crate::function_ref::FunctionRef;
 use crate::host::{
     CallError, CallbackResult, Callee, Env, Hook, Interpreter, ScriptError, Sim, SourceText,
 };
-use crate::lua::{NativeCall, RunningCallback, seeded};
+use crate::lua::{NativeCall, RunningCallback};
 use crate::sys_call::SysCall;
 use scene::Data;
 use scene::object::script_object::ScriptType;
@@ -33,7 +33,7 @@ pub(super) struct UsualMain {
     /// The interpreter, once it was needed.
     lua: OnceCell<LuaInterpreter>,
     /// Where its random numbers begin, which the usual text does not draw.
-    random: [u64; 4],
+    random: Cell<[u64; 4]>,
 }
 
 struct Text {
@@ -60,7 +60,7 @@ impl UsualMain {
             stages: Stages::of(&sim.modules.registry)?,
             text: RefCell::default(),
             lua: OnceCell::new(),
-            random: seeded(startup::scrambled(sim.options.seed)),
+            random: Cell::new(startup::random_of(sim.scripts.seed.get())),
         })
     }
 
@@ -123,7 +123,12 @@ impl Interpreter for UsualMain {
     fn random_state(&self) -> Option<[u64; 4]> {
         self.lua
             .get()
-            .map_or(Some(self.random), Interpreter::random_state)
+            .map_or(Some(self.random.get()), Interpreter::random_state)
+    }
+
+    fn seed_random(&self, seed: u32) -> Result<(), ScriptError> {
+        self.random.set(startup::random_of(seed));
+        self.lua.get().map_or(Ok(()), |lua| lua.seed_random(seed))
     }
 
     fn host_calls(&self) -> Option<u64> {
