@@ -1,0 +1,113 @@
+//! All worlds of an environment.
+
+use std::sync::Arc;
+
+use crate::arrays::{Array, Arrays};
+use crate::declaration::Declaration;
+use crate::worker::{Command, Failure, Worker};
+use crate::world::Layout;
+
+/// Many worlds that step together.
+pub struct Vector {
+    workers: Vec<Worker>,
+    arrays: Arc<Arrays>,
+    layout: Layout,
+    count: usize,
+}
+
+impl Vector {
+    /// `count` worlds on `threads` threads; their first episodes begin with [`begin`](Self::begin).
+    ///
+    /// # Errors
+    /// When there are none, or one cannot be made.
+    pub fn new(declaration: Declaration, count: usize, threads: usize) -> Result<Self, Failure> {
+        let fault = |reason: String| Failure { world: 0, reason };
+        if count == 0 {
+            return Err(fault("there are no worlds.".into()));
+        }
+        let declaration = Arc::new(declaration);
+        let threads = threads.clamp(1, count);
+        let bound = |thread: usize| thread * count / threads;
+        let start = |thread: usize| {
+            let worlds = bound(thread)..bound(thread + 1);
+            Worker::start(Arc::clone(&declaration), worlds)
+        };
+        let workers: std::io::Result<Vec<Worker>> = (0..threads).map(start).collect();
+        let workers = workers.map_err(|error| fault(format!("there is no thread: {error}")))?;
+        let layouts: Result<Vec<Layout>, Failure> = workers.iter().map(Worker::layout).collect();
+        let layout = layouts?.swap_remove(0);
+        Ok(Self {
+            workers,
+            arrays: Arc::new(arrays(&layout, count)),
+            layout,
+            count,
+        })
+    }
+
+    /// How many worlds there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// How many threads there are.
+    pub fn threads(&self) -> usize {
+        self.workers.len()
+    }
+
+    /// How wide the rows of the arrays are.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// What worlds read and write.
+    pub fn arrays(&self) -> &Arc<Arrays> {
+        &self.arrays
+    }
+
+    /// Begins an episode in these worlds. All that is random in it, and in those to come, follows from the seed, where there is one.
+    pub fn begin(&mut self, worlds: &[(usize, Option<u32>)]) -> Vec<Failure> {
+        let worlds: Arc<[_]> = worlds.into();
+        self.run(|arrays| Command::Begin(arrays, Arc::clone(&worlds)))
+    }
+
+    /// Steps all worlds with the actions in the arrays; those in `resets` begin an episode instead. Worlds that have failed wait until
+    /// then.
+    ///
+    /// # Errors
+    /// The world and the place of an action that is no finite number: then nothing has happened.
+    pub fn step(&mut self) -> Result<Vec<Failure>, (usize, usize)> {
+        for world in 0..self.count {
+            if self.arrays.resets.get(world) != 0 {
+                continue;
+            }
+            let actions = self.arrays.actions.read(world);
+            if let Some(place) = actions.iter().position(|action| !action.is_finite()) {
+                return Err((world, place));
+            }
+        }
+        Ok(self.run(Command::Step))
+    }
+
+    fn run(&self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {
+        for worker in &self.workers {
+            worker.begin(command(Arc::clone(&self.arrays)));
+        }
+        self.workers.iter().flat_map(Worker::wait).collect()
+    }
+}
+
+fn arrays(layout: &Layout, count: usize) -> Arrays {
+    let side = scene::numbers::place;
+    let image = |[width, height]: &[u32; 2]| Array::new(count, 3 * side(*width) * side(*height), 0);
+    Arrays {
+        actions: Array::new(count, layout.actions, 0.0),
+        observations: Array::new(count, layout.observations.iter().sum(), 0.0),
+        infos: Array::new(count, layout.infos.iter().sum(), 0.0),
+        rewards: Array::new(count, 1, 0.0),
+        terminated: Array::new(count, 1, 0),
+        truncated: Array::new(count, 1, 0),
+        resets: Array::new(count, 1, 0),
+        failed: Array::new(count, 1, 0),
+        images: layout.images.iter().map(image).collect(),
+    }
+}

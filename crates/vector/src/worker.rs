@@ -1,0 +1,167 @@
+//! A thread with its worlds.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use simulator::Simulator;
+
+use crate::arrays::Arrays;
+use crate::declaration::Declaration;
+use crate::world::{Layout, World};
+
+/// A world that could not go on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// Its number.
+    pub world: usize,
+    /// Why: an error of a script, with its line, or what could not be read or written.
+    pub reason: String,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "world {}: {}", self.world, self.reason)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// What a thread is to do.
+pub(crate) enum Command {
+    /// Step all worlds; those in `resets` begin an episode instead, and those that have failed wait.
+    Step(Arc<Arrays>),
+    /// Begin an episode in these worlds, from a seed where there is one.
+    Begin(Arc<Arrays>, Arc<[(usize, Option<u32>)]>),
+}
+
+/// What a thread has done: the worlds that failed meanwhile.
+type Done = Vec<Failure>;
+
+/// The thread.
+pub(crate) struct Worker {
+    /// None when it is to end.
+    commands: Option<Sender<Command>>,
+    done: Receiver<Done>,
+    made: Receiver<Result<Layout, Failure>>,
+    thread: Option<JoinHandle<()>>,
+    first: usize,
+}
+
+impl Worker {
+    /// Begins to make the worlds with these numbers.
+    pub(crate) fn start(
+        declaration: Arc<Declaration>,
+        worlds: Range<usize>,
+    ) -> std::io::Result<Self> {
+        let (commands, received) = channel();
+        let (says_done, done) = channel();
+        let (says_made, made) = channel();
+        let first = worlds.start;
+        let run = move || {
+            let made = make(&declaration, worlds);
+            let layout = made.as_ref().map(|worlds| worlds[0].1.layout());
+            let _ = says_made.send(layout.map_err(Clone::clone));
+            let Ok(mut worlds) = made else { return };
+            for command in received {
+                let done = perform(&mut worlds, &command);
+                if says_done.send(done).is_err() {
+                    return;
+                }
+            }
+        };
+        let thread = std::thread::Builder::new()
+            .name(format!("worlds from {first}"))
+            .stack_size(Simulator::STACK_SIZE)
+            .spawn(run)?;
+        Ok(Self {
+            commands: Some(commands),
+            done,
+            made,
+            thread: Some(thread),
+            first,
+        })
+    }
+
+    /// The layout of its worlds, when they are there.
+    pub(crate) fn layout(&self) -> Result<Layout, Failure> {
+        let made = self.made.recv();
+        made.unwrap_or_else(|_| Err(self.has_ended()))
+    }
+
+    pub(crate) fn begin(&self, command: Command) {
+        if let Some(commands) = &self.commands {
+            // A thread that has ended says so where its answer is awaited.
+            let _ = commands.send(command);
+        }
+    }
+
+    pub(crate) fn wait(&self) -> Vec<Failure> {
+        let done = self.done.recv();
+        done.unwrap_or_else(|_| vec![self.has_ended()])
+    }
+
+    fn has_ended(&self) -> Failure {
+        Failure {
+            world: self.first,
+            reason: "its thread has ended: this is a fault of Swanilda.".into(),
+        }
+    }
+}
+
+impl Drop for Worker {
+    /// Worlds end with their thread.
+    fn drop(&mut self) {
+        self.commands = None;
+        if let Some(thread) = self.thread.take() {
+            // It has ended, in whatever way.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn make(declaration: &Declaration, numbers: Range<usize>) -> Result<Vec<(usize, World)>, Failure> {
+    let make = |world| {
+        let number = u32::try_from(world).unwrap_or_default();
+        let made = World::new(declaration, number).map(|made| (world, made));
+        made.map_err(|reason| Failure { world, reason })
+    };
+    numbers.map(make).collect()
+}
+
+fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
+    let mut failures = Vec::new();
+    let mut note = |arrays: &Arrays, number: usize, result: Result<(), String>| {
+        arrays.failed.set(number, result.is_err().into());
+        if let Err(reason) = result {
+            failures.push(Failure {
+                world: number,
+                reason,
+            });
+        }
+    };
+    match command {
+        Command::Step(arrays) => {
+            for (number, world) in worlds {
+                if arrays.resets.get(*number) != 0 {
+                    note(arrays, *number, world.begin(*number, arrays));
+                } else if arrays.failed.get(*number) == 0 {
+                    note(arrays, *number, world.step(*number, arrays));
+                }
+            }
+        }
+        Command::Begin(arrays, which) => {
+            for (number, seed) in which.iter() {
+                let Some((_, world)) = worlds.iter_mut().find(|(own, _)| own == number) else {
+                    continue;
+                };
+                if let Some(seed) = seed {
+                    world.set_seed(*seed);
+                }
+                note(arrays, *number, world.begin(*number, arrays));
+            }
+        }
+    }
+    failures
+}

@@ -1,0 +1,372 @@
+//! One world: a simulator with what is read and written in it, and its episodes.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use perception::vision::Channels;
+use rand_mt::Mt;
+use scene::{Data, Handle};
+use script::log::verbosity;
+use script::{Console, LogLine, SimulationState};
+use simulator::{Simulator, Snapshot};
+
+use crate::arrays::{Arrays, Item};
+use crate::declaration::{Action, Camera, Declaration, Quantity, Reset, Target};
+use crate::expressions::Expressions;
+use crate::quantities::{Readers, Writers, object};
+use crate::variations::Variations;
+
+/// How wide the rows of the arrays are. All worlds have the same.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    /// Numbers of each observation.
+    pub observations: Vec<usize>,
+    /// Numbers of each info.
+    pub infos: Vec<usize>,
+    /// Numbers of all actions.
+    pub actions: usize,
+    /// Width and height of each camera's pictures.
+    pub images: Vec<[u32; 2]>,
+    /// Whether episodes begin with a snapshot.
+    pub has_snapshot: bool,
+}
+
+/// A simulator and its episodes.
+pub(crate) struct World {
+    simulator: Simulator,
+    expressions: Expressions,
+    observations: Readers,
+    infos: Readers,
+    actions: Writers,
+    cameras: Vec<(Handle, [u32; 2])>,
+    score: Option<Score>,
+    /// The number of the statements at the beginning of an episode.
+    begin: Option<i64>,
+    variations: Variations,
+    /// None where the simulation is started again.
+    start: Option<Snapshot>,
+    random: Mt,
+    max_steps: u64,
+    steps_per_action: u64,
+    steps: u64,
+    /// Actions that have not acted yet.
+    delayed: VecDeque<Vec<f64>>,
+    errors: Errors,
+}
+
+/// The numbers of the expressions for reward and end.
+struct Score {
+    reward: Option<i64>,
+    terminated: Option<i64>,
+}
+
+/// What calls of scripts return where the error is in the log.
+const FAILED: &str = "error in script function";
+
+/// Lines of errors, as the log shows them.
+#[derive(Clone, Default)]
+struct Errors(Rc<RefCell<Vec<String>>>);
+
+impl Console for Errors {
+    fn print(&mut self, _: &[u8], _: f64) {}
+
+    fn log(&mut self, line: &LogLine<'_>) {
+        if verbosity::plain(line.level) == verbosity::SCRIPT_ERRORS {
+            self.0.borrow_mut().push(line.located());
+        }
+    }
+}
+
+impl World {
+    /// Opens the scene and starts the simulation.
+    ///
+    /// # Errors
+    /// When the scene cannot be read, one of its scripts fails, or something that is declared is not there.
+    pub(crate) fn new(declaration: &Declaration, number: u32) -> Result<Self, String> {
+        let errors = Errors::default();
+        let made = Self::made(declaration, number, &errors);
+        made.map_err(|reason| errors.explained(reason))
+    }
+
+    fn made(declaration: &Declaration, number: u32, errors: &Errors) -> Result<Self, String> {
+        let console = Box::new(errors.clone());
+        let mut simulator = Simulator::with_console(declaration.options.clone(), console);
+        simulator
+            .open(&declaration.scene, declaration.kind)
+            .map_err(|error| error.to_string())?;
+        if let Some(step) = declaration.time_step {
+            let settings = &mut simulator.scene_mut();
+            settings.modify_settings(|settings| settings.time_step = step);
+        }
+        let expressions = expressions(&mut simulator, declaration)?;
+        let variations = Variations::new(&mut simulator, &expressions, &declaration.variations)?;
+        let actions = Writers::new(&mut simulator, &expressions, &declaration.actions)?;
+        let score = Score::new(&mut simulator, &expressions, declaration)?;
+        let begin = declaration.begin.as_ref().map(|text| {
+            expressions.compile(&mut simulator, "the statements at the beginning", "", text)
+        });
+        let begin = begin.transpose()?;
+        simulator.start();
+        errors.check(&simulator, 0)?;
+        let observations = Readers::new(&mut simulator, &expressions, &declaration.observations)?;
+        let infos = Readers::new(&mut simulator, &expressions, &declaration.infos)?;
+        let cameras = cameras(&mut simulator, &declaration.cameras)?;
+        // What was compiled lies in the memory of the simulator, so it comes last.
+        let start = match declaration.reset {
+            Reset::Snapshot => Some(simulator.snapshot().map_err(|error| error.to_string())?),
+            Reset::Start => None,
+        };
+        Ok(Self {
+            simulator,
+            expressions,
+            observations,
+            infos,
+            actions,
+            cameras,
+            score,
+            begin,
+            variations,
+            start,
+            random: Mt::new(declaration.options.seed.wrapping_add(number)),
+            max_steps: declaration.max_steps,
+            steps_per_action: declaration.steps_per_action,
+            steps: 0,
+            delayed: VecDeque::new(),
+            errors: errors.clone(),
+        })
+    }
+
+    pub(crate) fn layout(&self) -> Layout {
+        Layout {
+            observations: self.observations.widths(),
+            infos: self.infos.widths(),
+            actions: self.actions.width(),
+            images: self.cameras.iter().map(|(_, size)| *size).collect(),
+            has_snapshot: self.start.is_some(),
+        }
+    }
+
+    /// What the episodes from now on follow from.
+    pub(crate) fn set_seed(&mut self, seed: u32) {
+        self.random = Mt::new(seed);
+    }
+
+    /// Begins an episode, and writes what is observed.
+    ///
+    /// # Errors
+    /// When a script fails, or what is declared in Lua, or something cannot be read any more.
+    pub(crate) fn begin(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.errors.0.borrow_mut().clear();
+        let begun = self.begin_episode(number, arrays);
+        begun.map_err(|reason| self.errors.explained(reason))
+    }
+
+    fn begin_episode(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.start_again()?;
+        let errors = self.simulator.errors();
+        let delay =
+            self.variations
+                .apply(&mut self.simulator, &self.expressions, &mut self.random)?;
+        self.delayed = std::iter::repeat_n(vec![0.0; self.actions.width()], delay).collect();
+        if let Some(begin) = self.begin {
+            self.expressions.run(&mut self.simulator, begin, &[])?;
+        }
+        self.errors.check(&self.simulator, errors)?;
+        self.steps = 0;
+        self.observe(number, arrays)?;
+        arrays.rewards.set(number, 0.0);
+        arrays.terminated.set(number, 0);
+        arrays.truncated.set(number, 0);
+        Ok(())
+    }
+
+    /// The simulation at its start, with random numbers of its own.
+    fn start_again(&mut self) -> Result<(), String> {
+        let seed = self.random.next_u32();
+        if let Some(start) = &self.start {
+            let restored = self.simulator.restore(start);
+            restored.map_err(|error| error.to_string())?;
+            return self
+                .simulator
+                .set_seed(seed)
+                .map_err(|error| error.to_string());
+        }
+        if self.simulator.state() != SimulationState::Stopped {
+            self.simulator.stop();
+        }
+        let seeded = self.simulator.set_seed(seed);
+        seeded.map_err(|error| error.to_string())?;
+        let errors = self.simulator.errors();
+        self.simulator.start();
+        self.errors.check(&self.simulator, errors)
+    }
+
+    /// Acts, steps, and writes what is observed. An episode also ends where a script stops the simulation.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    pub(crate) fn step(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.errors.0.borrow_mut().clear();
+        let stepped = self.act_and_observe(number, arrays);
+        stepped.map_err(|reason| self.errors.explained(reason))
+    }
+
+    fn act_and_observe(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        let errors = self.simulator.errors();
+        self.delayed.push_back(arrays.actions.read(number));
+        let acts = self.delayed.pop_front().unwrap_or_default();
+        self.actions
+            .write(&mut self.simulator, &self.expressions, &acts)?;
+        self.simulator.step(self.steps_per_action);
+        self.errors.check(&self.simulator, errors)?;
+        self.steps += 1;
+        let observed = self.observe(number, arrays)?;
+        let (reward, terminated) = self.score(&observed, &arrays.actions.read(number))?;
+        let is_over = terminated || !self.simulator.state().is_advancing();
+        arrays.rewards.set(number, reward);
+        arrays.terminated.set(number, is_over.into());
+        let is_long = self.max_steps > 0 && self.steps >= self.max_steps;
+        arrays.truncated.set(number, is_long.into());
+        Ok(())
+    }
+
+    fn observe(&mut self, number: usize, arrays: &Arrays) -> Result<Vec<f64>, String> {
+        let observed = self
+            .observations
+            .read(&mut self.simulator, &self.expressions)?;
+        arrays.observations.write(number, &observed);
+        let infos = self.infos.read(&mut self.simulator, &self.expressions)?;
+        arrays.infos.write(number, &infos);
+        for ((camera, size), array) in self.cameras.iter().zip(&arrays.images) {
+            let picture = self
+                .simulator
+                .picture(Some(*camera), Some(*size), Channels::COLOUR)
+                .map_err(|error| error.to_string())?;
+            // Pictures of simulators begin with the lowest row.
+            let rows = picture
+                .colour
+                .chunks(3 * scene::numbers::place(size[0]))
+                .rev();
+            for (cell, level) in array.row(number).iter().zip(rows.flatten()) {
+                level.set(cell);
+            }
+        }
+        Ok(observed)
+    }
+
+    fn score(&mut self, observed: &[f64], actions: &[f64]) -> Result<(f64, bool), String> {
+        let Some(score) = &self.score else {
+            return Ok((0.0, false));
+        };
+        let args = [Data::from(observed.to_vec()), Data::from(actions.to_vec())];
+        let mut run = |number: Option<i64>| {
+            number
+                .map(|number| self.expressions.run(&mut self.simulator, number, &args))
+                .transpose()
+        };
+        let reward = match run(score.reward)?.as_deref() {
+            None => 0.0,
+            Some([value]) if value.as_f64().is_some_and(f64::is_finite) => {
+                value.as_f64().unwrap_or_default()
+            }
+            Some(other) => return Err(format!("the reward is no finite number: {other:?}.")),
+        };
+        let terminated = match run(score.terminated)?.as_deref() {
+            None | Some([Data::Bool(false) | Data::Nil] | []) => false,
+            Some(_) => true,
+        };
+        Ok((reward, terminated))
+    }
+}
+
+impl Errors {
+    /// A reason that only says that a script has failed becomes what the log says.
+    fn explained(&self, reason: String) -> String {
+        let lines = self.0.borrow();
+        let logged = lines.first().filter(|_| reason.contains(FAILED));
+        logged.cloned().unwrap_or(reason)
+    }
+
+    /// The first error of scripts since there were `before`.
+    fn check(&self, simulator: &Simulator, before: u64) -> Result<(), String> {
+        if simulator.errors() == before {
+            return Ok(());
+        }
+        let lines = self.0.borrow();
+        Err(lines
+            .first()
+            .cloned()
+            .unwrap_or_else(|| "a script has failed.".to_owned()))
+    }
+}
+
+impl Score {
+    fn new(
+        simulator: &mut Simulator,
+        expressions: &Expressions,
+        declaration: &Declaration,
+    ) -> Result<Option<Self>, String> {
+        let mut compile = |name: &str, text: &Option<String>| {
+            let head = "local o, a = ...; return";
+            let text = text.as_ref();
+            text.map(|text| expressions.compile(simulator, name, head, text))
+                .transpose()
+        };
+        let (reward, terminated) = (
+            compile("the reward", &declaration.reward)?,
+            compile("the end", &declaration.terminated)?,
+        );
+        let is_there = reward.is_some() || terminated.is_some();
+        Ok(is_there.then_some(Self { reward, terminated }))
+    }
+}
+
+/// The script for what is declared in Lua, if anything is.
+fn expressions(
+    simulator: &mut Simulator,
+    declaration: &Declaration,
+) -> Result<Expressions, String> {
+    let is_quantity = |quantity: &Quantity| matches!(quantity, Quantity::Expression(_));
+    let texts = [
+        &declaration.reward,
+        &declaration.terminated,
+        &declaration.prepare,
+        &declaration.begin,
+    ];
+    let is_needed = texts.into_iter().any(Option::is_some)
+        || declaration.observations.iter().any(is_quantity)
+        || declaration.infos.iter().any(is_quantity)
+        || declaration
+            .actions
+            .iter()
+            .any(|action| matches!(action, Action::Statement(_)))
+        || declaration
+            .variations
+            .iter()
+            .any(|variation| matches!(variation.target, Target::Statement(_)));
+    if !is_needed {
+        return Ok(Expressions::none());
+    }
+    let expressions = Expressions::new(simulator)?;
+    if let Some(text) = &declaration.prepare {
+        let number = expressions.compile(simulator, "the preparation", "", text)?;
+        expressions.run(simulator, number, &[])?;
+    }
+    Ok(expressions)
+}
+
+/// The cameras with the sizes of their pictures.
+fn cameras(
+    simulator: &mut Simulator,
+    cameras: &[Camera],
+) -> Result<Vec<(Handle, [u32; 2])>, String> {
+    let of = |camera: &Camera| {
+        let handle = object(simulator, &camera.path)?;
+        let handle = Handle::from_raw(handle).ok_or("there is no such object.")?;
+        let view = simulator.projection(Some(handle));
+        let view = view.map_err(|error| format!("'{}': {error}", camera.path))?;
+        Ok((handle, camera.resolution.unwrap_or(view.resolution)))
+    };
+    cameras.iter().map(of).collect()
+}
