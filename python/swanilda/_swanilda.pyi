@@ -49,6 +49,7 @@ class Simulator(Requires):
     def restore(self, snapshot: Snapshot) -> None: ...
     def close(self) -> None: ...
     def _branch(self, count: int) -> list[int]: ...
+    def _quantities(self, observations: list[_Named], actions: list[_Named]) -> Quantities: ...
     def _serve(self, timeout: float) -> None: ...
     def _view(self, port: int) -> str: ...
     def _picture(
@@ -63,6 +64,38 @@ class Module:
 
 class Function:
     def __call__(self, *args: Any) -> Any: ...
+
+_Named = tuple[str, list[str]]
+
+class Quantities:
+    widths: list[int]
+    def read(self) -> list[float]: ...
+    def write(self, values: list[float]) -> None: ...
+
+class Array:
+    __array_interface__: dict[str, Any]
+
+class Vector:
+    observations: list[int]
+    infos: list[int]
+    images: list[tuple[int, int]]
+    has_snapshot: bool
+    def __init__(
+        self,
+        declared: dict[str, Any],
+        count: int,
+        threads: int,
+        *,
+        seed: int | None = None,
+        params: dict[str, str] | None = None,
+        unsafe_functions: bool = True,
+        package_dirs: list[str | PathLike[str]] | None = None,
+        data_dir: str | PathLike[str] | None = None,
+    ) -> None: ...
+    def array(self, name: str, image: int = 0) -> Array: ...
+    def begin(self, worlds: list[tuple[int, int | None]]) -> list[tuple[int, str]]: ...
+    def step(self) -> list[tuple[int, str]]: ...
+    def draw(self, camera: int) -> list[tuple[int, str]]: ...
 
 class Batch:
     def __init__(

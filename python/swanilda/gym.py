@@ -31,84 +31,81 @@ if TYPE_CHECKING:
 
 
 class Quantity:
-    """Numbers that are read from the scene, or written to it, and their bounds."""
+    """Numbers that are read from the scene, or written to it, and their bounds. Objects are named by their paths."""
 
-    def __init__(self, path: str, low: ArrayLike, high: ArrayLike, prepare: Callable[[Any, int], Callable[..., Any]]) -> None:
-        self.path, self.low, self.high = path, numpy.atleast_1d(low), numpy.atleast_1d(high)
-        self._prepare = prepare
+    def __init__(self, kind: str, texts: Sequence[str], low: ArrayLike = -math.inf, high: ArrayLike = math.inf) -> None:
+        self.declared = (kind, list(texts))
+        self.low, self.high = numpy.atleast_1d(numpy.asarray(low, float)), numpy.atleast_1d(numpy.asarray(high, float))
 
-    def prepare(self, sim: Any) -> Callable[..., Any]:
-        """The function that reads or writes it."""
-        return self._prepare(sim, sim.getObject(self.path))
+    def __repr__(self) -> str:
+        kind, texts = self.declared
+        return f"{kind}({', '.join(map(repr, texts))})"
 
 
 def joint_position(path: str, bound: float = math.inf) -> Quantity:
     """The position of a joint, metres or radians."""
-    return Quantity(path, -bound, bound, lambda sim, joint: lambda: (sim.getJointPosition(joint),))
+    return Quantity("joint_position", [path], -bound, bound)
 
 
 def joint_velocity(path: str, bound: float = math.inf) -> Quantity:
     """The velocity of a joint, m/s or rad/s."""
-    return Quantity(path, -bound, bound, lambda sim, joint: lambda: (sim.getJointVelocity(joint),))
+    return Quantity("joint_velocity", [path], -bound, bound)
+
+
+def joint_force(path: str, bound: float = math.inf) -> Quantity:
+    """The force or torque of a joint's motor, N or N m."""
+    return Quantity("joint_force", [path], -bound, bound)
 
 
 def position(path: str, bound: float = math.inf) -> Quantity:
     """The position of an object in the world, metres."""
-    return Quantity(path, [-bound] * 3, [bound] * 3, lambda sim, thing: lambda: sim.getObjectPosition(thing))
+    return Quantity("position", [path], -bound, bound)
 
 
 def velocity(path: str, bound: float = math.inf) -> Quantity:
     """The linear and the angular velocity of an object, m/s and rad/s."""
-
-    def prepare(sim: Any, thing: int) -> Callable[[], list[float]]:
-        def read() -> list[float]:
-            linear, angular = sim.getObjectVelocity(thing)
-            return [*linear, *angular]
-
-        return read
-
-    return Quantity(path, [-bound] * 6, [bound] * 6, prepare)
+    return Quantity("velocity", [path], -bound, bound)
 
 
 def quaternion(path: str) -> Quantity:
     """The orientation of an object as a quaternion x, y, z, w."""
-    return Quantity(path, [-1.0] * 4, [1.0] * 4, lambda sim, thing: lambda: sim.getObjectQuaternion(thing))
+    return Quantity("quaternion", [path], -1.0, 1.0)
+
+
+def scene_property(path: str, name: str, low: ArrayLike = -math.inf, high: ArrayLike = math.inf) -> Quantity:
+    """A property of an object, read or written: numbers, or true and false as 1 and 0."""
+    return Quantity("property", [path, name], low, high)
+
+
+def function(path: str, name: str, low: ArrayLike = -math.inf, high: ArrayLike = math.inf) -> Quantity:
+    """What a global function of the script at that path returns; as an action it is called with the number."""
+    return Quantity("function", [path, name], low, high)
+
+
+def lua(text: str, low: ArrayLike = -math.inf, high: ArrayLike = math.inf) -> Quantity:
+    """A Lua expression; as an action a statement, in which the number is `x`."""
+    return Quantity("lua", [text], low, high)
 
 
 def target_force(path: str, bound: float) -> Quantity:
     """The force or torque that the motor of a joint applies, N or N m."""
-
-    def prepare(sim: Any, joint: int) -> Callable[[float], Any]:
-        sim.setIntProperty(joint, "dynCtrlMode", sim.jointdynctrl_force)
-        return lambda value: sim.setJointTargetForce(joint, value)
-
-    return Quantity(path, -bound, bound, prepare)
+    return Quantity("target_force", [path], -bound, bound)
 
 
 def target_velocity(path: str, bound: float) -> Quantity:
     """The velocity that the motor of a joint strives for, m/s or rad/s."""
-
-    def prepare(sim: Any, joint: int) -> Callable[[float], Any]:
-        sim.setIntProperty(joint, "dynCtrlMode", sim.jointdynctrl_velocity)
-        return lambda value: sim.setJointTargetVelocity(joint, value)
-
-    return Quantity(path, -bound, bound, prepare)
+    return Quantity("target_velocity", [path], -bound, bound)
 
 
 def target_position(path: str, bound: float) -> Quantity:
     """The position that the motor of a joint strives for, metres or radians."""
-
-    def prepare(sim: Any, joint: int) -> Callable[[float], Any]:
-        sim.setIntProperty(joint, "dynCtrlMode", sim.jointdynctrl_position)
-        return lambda value: sim.setJointTargetPosition(joint, value)
-
-    return Quantity(path, -bound, bound, prepare)
+    return Quantity("target_position", [path], -bound, bound)
 
 
 class SceneEnv(gymnasium.Env[Any, Any]):
     """An environment from a scene.
 
-    observations, actions: what is read after, and written before each action. reward(observation, action), terminated(observation):
+    observations, actions: what is read after, and written before each action, by the simulator itself. reward(observation, action), terminated(observation):
     functions. max_steps: actions until an episode is truncated. steps_per_action: simulation steps. prepare(sim): called once, before
     the first episode; begin(sim, rng): at the start of each, to vary it with the random numbers of reset's seed. Other arguments are
     those of `Simulator`.
@@ -135,15 +132,15 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self.render_mode, self._camera, self._resolution = render_mode, camera, resolution
         self._reward, self._terminated, self._begin = reward, terminated, begin
         self._max_steps, self._steps_per_action, self._count = max_steps, steps_per_action, 0
-        self.observation_space = _box(observations, numpy.float64)
-        self.action_space = _box(actions, numpy.float32)
         options.setdefault("quiet", True)
         self.simulator = Simulator(scene, **options)
         self._sim = self.simulator.require("sim")
         if prepare:
             prepare(self._sim)
-        self._readers = [quantity.prepare(self._sim) for quantity in observations]
-        self._writers = [quantity.prepare(self._sim) for quantity in actions]
+        declared = [[quantity.declared for quantity in each] for each in (observations, actions)]
+        self._quantities = self.simulator._quantities(*declared)
+        self.observation_space = box(observations, self._quantities.widths, numpy.float64)
+        self.action_space = box(actions, [1] * len(actions), numpy.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)
@@ -156,9 +153,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         return self._observe(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        values = numpy.asarray(action).tolist()
-        for write, value in zip(self._writers, values):
-            write(value)
+        self._quantities.write(numpy.asarray(action, float).ravel().tolist())
         self.simulator.step(self._steps_per_action)
         self._count += 1
         observation = self._observe()
@@ -167,7 +162,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         return observation, reward, ended, self._count >= self._max_steps, {}
 
     def _observe(self) -> NDArray[numpy.float64]:
-        return numpy.array([number for read in self._readers for number in read()])
+        return numpy.array(self._quantities.read())
 
     def render(self) -> Any:
         if self.render_mode == "rgb_array":
@@ -187,7 +182,8 @@ def vector(make: Callable[[], gymnasium.Env[Any, Any]], count: int, processes: b
     return gymnasium.vector.SyncVectorEnv([make] * count)
 
 
-def _box(quantities: Sequence[Quantity], dtype: Any) -> gymnasium.spaces.Box:
-    low = numpy.concatenate([quantity.low for quantity in quantities]).astype(dtype)
-    high = numpy.concatenate([quantity.high for quantity in quantities]).astype(dtype)
-    return gymnasium.spaces.Box(low, high, dtype=dtype)
+def box(quantities: Sequence[Quantity], widths: Sequence[int], dtype: Any) -> gymnasium.spaces.Box:
+    """The space of quantities, which have so many numbers each."""
+    low = [numpy.broadcast_to(quantity.low, width) for quantity, width in zip(quantities, widths)]
+    high = [numpy.broadcast_to(quantity.high, width) for quantity, width in zip(quantities, widths)]
+    return gymnasium.spaces.Box(numpy.concatenate([*low, []]).astype(dtype), numpy.concatenate([*high, []]).astype(dtype), dtype=dtype)

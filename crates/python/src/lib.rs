@@ -14,8 +14,11 @@ mod library;
 mod lua_tests;
 mod making;
 mod module;
+mod options;
+mod quantities;
 mod script;
 mod simulator;
+mod vector;
 mod worlds;
 
 use pyo3::prelude::*;
@@ -39,7 +42,11 @@ mod _swanilda {
     #[pymodule_export]
     use crate::module::{Function, Module};
     #[pymodule_export]
+    use crate::quantities::Quantities;
+    #[pymodule_export]
     use crate::simulator::Simulator;
+    #[pymodule_export]
+    use crate::vector::{Array, Vector};
     #[pymodule_export]
     use crate::worlds::{close_all, forget_after_fork};
 

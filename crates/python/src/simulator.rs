@@ -6,17 +6,19 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Duration;
 
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 use scene::Handle;
-use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer};
+use swanilda::{Channels, Options, ScriptKind, SimulationState, Viewer};
 
 use crate::branches::{NOT_SHOWN, Snapshot};
 use crate::errors::{self, Error};
 use crate::making::made;
 use crate::module::Module;
+use crate::options::{Given, check_time_step, kind_of};
+use crate::quantities::Quantities;
 use crate::script::PythonScript;
+use crate::vector::Named;
 use crate::worlds::{self, Shared, World};
 
 /// Steps between two looks at signals, such as that of ctrl-c.
@@ -26,20 +28,6 @@ const STEPS_AT_ONCE: u64 = 32;
 #[pyclass(subclass, frozen, module = "swanilda._swanilda")]
 pub struct Simulator {
     number: u64,
-}
-
-/// The type of script of that name.
-fn kind_of(name: &str) -> PyResult<ScriptKind> {
-    match name {
-        "customization" => Ok(ScriptKind::Customization),
-        "simulation" => Ok(ScriptKind::Simulation),
-        "addon" => Ok(ScriptKind::AddOn),
-        "sandbox" => Ok(ScriptKind::Sandbox),
-        "main" => Ok(ScriptKind::Main),
-        _ => Err(PyValueError::new_err(format!(
-            "there are no scripts of type '{name}': it is customization, simulation, addon, sandbox or main"
-        ))),
-    }
 }
 
 #[pymethods]
@@ -71,31 +59,17 @@ impl Simulator {
             return Ok(Self { number });
         }
         let kind = kind_of(kind)?;
-        if time_step.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
-            return Err(PyValueError::new_err(
-                "time_step is a number of seconds above 0",
-            ));
-        }
-        let mut options = Options {
-            named_params: params.unwrap_or_default(),
-            package_dirs: scene
-                .iter()
-                .map(|scene| swanilda::Simulator::folder_of_scene(scene))
-                .collect(),
+        check_time_step(time_step)?;
+        let given = Given {
+            seed,
+            params,
+            unsafe_functions,
+            package_dirs,
             data_dir,
-            render_threads: render_threads.and_then(std::num::NonZero::new),
-            permissions: if unsafe_functions {
-                Permissions::all()
-            } else {
-                Permissions::none()
-            },
-            ..Options::default()
+            verbosity,
+            render_threads,
         };
-        options
-            .package_dirs
-            .extend(package_dirs.unwrap_or_default());
-        options.seed = seed.unwrap_or(options.seed);
-        options.verbosity = verbosity.unwrap_or(options.verbosity);
+        let options = given.options(scene.as_deref());
         let this = Self::filled(py, options, quiet, scene, kind, empty)?;
         if let Some(step) = time_step {
             worlds::get(this.number)?
@@ -190,6 +164,11 @@ impl Simulator {
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
         let restored = self.detached(py, |simulator| simulator.restore(&snapshot.0))?;
         restored.map_err(|error| errors::plain(&error))
+    }
+
+    /// What is read and written in the scene, found once.
+    fn _quantities(&self, observations: Vec<Named>, actions: Vec<Named>) -> PyResult<Quantities> {
+        Quantities::new(self.number, &observations, &actions)
     }
 
     /// The numbers of branches from the present moment on.

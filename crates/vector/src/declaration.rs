@@ -89,6 +89,8 @@ pub struct Camera {
     pub path: String,
     /// Width and height, pixels; None for its own.
     pub resolution: Option<[u32; 2]>,
+    /// Whether there is a picture after each step; otherwise only where [`Vector::draw`](crate::Vector::draw) is called.
+    pub each_step: bool,
 }
 
 /// Something that is drawn anew for each episode, between two bounds.
@@ -152,4 +154,6 @@ pub enum Reset {
     Snapshot,
     /// The simulation is stopped and started.
     Start,
+    /// With a snapshot, or with a start where something is open that no snapshot reaches, such as a script in Python.
+    Either,
 }

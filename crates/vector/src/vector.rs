@@ -88,6 +88,11 @@ impl Vector {
         Ok(self.run(Command::Step))
     }
 
+    /// Draws the pictures of the camera at that place in all worlds.
+    pub fn draw(&mut self, camera: usize) -> Vec<Failure> {
+        self.run(|arrays| Command::Draw(arrays, camera))
+    }
+
     fn run(&self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {
         for worker in &self.workers {
             worker.begin(command(Arc::clone(&self.arrays)));

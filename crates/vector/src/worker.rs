@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Step(Arc<Arrays>),
     /// Begin an episode in these worlds, from a seed where there is one.
     Begin(Arc<Arrays>, Arc<[(usize, Option<u32>)]>),
+    /// Draw the pictures of the camera at that place.
+    Draw(Arc<Arrays>, usize),
 }
 
 /// What a thread has done: the worlds that failed meanwhile.
@@ -132,22 +134,23 @@ fn make(declaration: &Declaration, numbers: Range<usize>) -> Result<Vec<(usize, 
 
 fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
     let mut failures = Vec::new();
-    let mut note = |arrays: &Arrays, number: usize, result: Result<(), String>| {
-        arrays.failed.set(number, result.is_err().into());
-        if let Err(reason) = result {
-            failures.push(Failure {
-                world: number,
-                reason,
-            });
-        }
-    };
     match command {
         Command::Step(arrays) => {
             for (number, world) in worlds {
                 if arrays.resets.get(*number) != 0 {
-                    note(arrays, *number, world.begin(*number, arrays));
+                    note(&mut failures, arrays, *number, world.begin(*number, arrays));
                 } else if arrays.failed.get(*number) == 0 {
-                    note(arrays, *number, world.step(*number, arrays));
+                    note(&mut failures, arrays, *number, world.step(*number, arrays));
+                }
+            }
+        }
+        Command::Draw(arrays, camera) => {
+            for (number, world) in worlds {
+                if let Err(reason) = world.draw(*number, *camera, arrays) {
+                    failures.push(Failure {
+                        world: *number,
+                        reason,
+                    });
                 }
             }
         }
@@ -159,9 +162,17 @@ fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
                 if let Some(seed) = seed {
                     world.set_seed(*seed);
                 }
-                note(arrays, *number, world.begin(*number, arrays));
+                note(&mut failures, arrays, *number, world.begin(*number, arrays));
             }
         }
     }
     failures
+}
+
+/// Notes how the step of a world or the beginning of its episode has ended.
+fn note(failures: &mut Done, arrays: &Arrays, world: usize, result: Result<(), String>) {
+    arrays.failed.set(world, result.is_err().into());
+    if let Err(reason) = result {
+        failures.push(Failure { world, reason });
+    }
 }

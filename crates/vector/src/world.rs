@@ -39,7 +39,7 @@ pub(crate) struct World {
     observations: Readers,
     infos: Readers,
     actions: Writers,
-    cameras: Vec<(Handle, [u32; 2])>,
+    cameras: Vec<Viewpoint>,
     score: Option<Score>,
     /// The number of the statements at the beginning of an episode.
     begin: Option<i64>,
@@ -53,6 +53,13 @@ pub(crate) struct World {
     /// Actions that have not acted yet.
     delayed: VecDeque<Vec<f64>>,
     errors: Errors,
+}
+
+/// A camera, and the size of its pictures.
+struct Viewpoint {
+    camera: Handle,
+    size: [u32; 2],
+    each_step: bool,
 }
 
 /// The numbers of the expressions for reward and end.
@@ -115,6 +122,7 @@ impl World {
         // What was compiled lies in the memory of the simulator, so it comes last.
         let start = match declaration.reset {
             Reset::Snapshot => Some(simulator.snapshot().map_err(|error| error.to_string())?),
+            Reset::Either => simulator.snapshot().ok(),
             Reset::Start => None,
         };
         Ok(Self {
@@ -142,7 +150,7 @@ impl World {
             observations: self.observations.widths(),
             infos: self.infos.widths(),
             actions: self.actions.width(),
-            images: self.cameras.iter().map(|(_, size)| *size).collect(),
+            images: self.cameras.iter().map(|view| view.size).collect(),
             has_snapshot: self.start.is_some(),
         }
     }
@@ -238,21 +246,32 @@ impl World {
         arrays.observations.write(number, &observed);
         let infos = self.infos.read(&mut self.simulator, &self.expressions)?;
         arrays.infos.write(number, &infos);
-        for ((camera, size), array) in self.cameras.iter().zip(&arrays.images) {
-            let picture = self
-                .simulator
-                .picture(Some(*camera), Some(*size), Channels::COLOUR)
-                .map_err(|error| error.to_string())?;
-            // Pictures of simulators begin with the lowest row.
-            let rows = picture
-                .colour
-                .chunks(3 * scene::numbers::place(size[0]))
-                .rev();
-            for (cell, level) in array.row(number).iter().zip(rows.flatten()) {
-                level.set(cell);
+        for at in 0..self.cameras.len() {
+            if self.cameras[at].each_step {
+                self.draw(number, at, arrays)?;
             }
         }
         Ok(observed)
+    }
+
+    /// Draws the picture of the camera at that place.
+    ///
+    /// # Errors
+    /// When the camera is gone.
+    pub(crate) fn draw(&self, number: usize, camera: usize, arrays: &Arrays) -> Result<(), String> {
+        let view = &self.cameras[camera];
+        let picture = self
+            .simulator
+            .picture(Some(view.camera), Some(view.size), Channels::COLOUR);
+        let picture = picture.map_err(|error| error.to_string())?;
+        // Pictures of simulators begin with the lowest row.
+        let width = scene::numbers::place(view.size[0]);
+        let rows = picture.colour.chunks(3 * width).rev();
+        let cells = arrays.images[camera].row(number);
+        for (cell, level) in cells.iter().zip(rows.flatten()) {
+            level.set(cell);
+        }
+        Ok(())
     }
 
     fn score(&mut self, observed: &[f64], actions: &[f64]) -> Result<(f64, bool), String> {
@@ -356,17 +375,17 @@ fn expressions(
     Ok(expressions)
 }
 
-/// The cameras with the sizes of their pictures.
-fn cameras(
-    simulator: &mut Simulator,
-    cameras: &[Camera],
-) -> Result<Vec<(Handle, [u32; 2])>, String> {
+fn cameras(simulator: &mut Simulator, cameras: &[Camera]) -> Result<Vec<Viewpoint>, String> {
     let of = |camera: &Camera| {
         let handle = object(simulator, &camera.path)?;
         let handle = Handle::from_raw(handle).ok_or("there is no such object.")?;
         let view = simulator.projection(Some(handle));
         let view = view.map_err(|error| format!("'{}': {error}", camera.path))?;
-        Ok((handle, camera.resolution.unwrap_or(view.resolution)))
+        Ok(Viewpoint {
+            camera: handle,
+            size: camera.resolution.unwrap_or(view.resolution),
+            each_step: camera.each_step,
+        })
     };
     cameras.iter().map(of).collect()
 }

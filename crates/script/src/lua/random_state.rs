@@ -1,4 +1,4 @@
-//! The state of Lua's random numbers, to read.
+//! The state of Lua's random numbers, to read and to set.
 
 use std::ffi::CStr;
 use std::ptr::NonNull;
@@ -55,5 +55,13 @@ impl RandomState {
     pub(super) fn read(&self) -> Option<[u64; 4]> {
         // SAFETY: the registry keeps the userdata, and who holds this holds the state; no Lua code runs meanwhile.
         self.0.map(|words| unsafe { words.read() })
+    }
+
+    /// Sets the four words; false where they are not known.
+    pub(super) fn write(&self, state: [u64; 4]) -> bool {
+        let Some(words) = self.0 else { return false };
+        // SAFETY: as in `read`; the userdata consists of these words.
+        unsafe { words.write(state) };
+        true
     }
 }

@@ -65,6 +65,11 @@ impl State {
         self.random.read()
     }
 
+    /// Sets the state of `math.random`; false where Lua keeps it in another way.
+    pub(crate) fn set_random_state(&self, words: [u64; 4]) -> bool {
+        self.random.write(words)
+    }
+
     /// The virtual machine, for what is not hot.
     pub(crate) fn lua(&self) -> &Lua {
         &self.lua

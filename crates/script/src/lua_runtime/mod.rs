@@ -231,6 +231,9 @@ impl Interpreter for LuaInterpreter {
     }
 
     fn seed_random(&self, seed: u32) -> Result<(), ScriptError> {
+        if self.state.set_random_state(startup::random_of(seed)) {
+            return Ok(());
+        }
         startup::seed_random(self.state.lua(), seed)
             .map_err(|error| ScriptError::new(error.to_string()))
     }

@@ -184,6 +184,7 @@ end"
     declaration.cameras = vec![crate::Camera {
         path: "/camera".into(),
         resolution: None,
+        each_step: true,
     }];
     let mut all = vector(&declaration, 2, 2);
     assert_eq!(all.layout().images, [[16, 16]]);

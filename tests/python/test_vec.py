@@ -1,0 +1,158 @@
+"""Many worlds as one environment."""
+
+import pathlib
+
+import pytest
+
+gymnasium = pytest.importorskip("gymnasium")
+
+import numpy  # noqa: E402
+from gymnasium.vector import AutoresetMode  # noqa: E402
+
+from swanilda import Error, gym, vec  # noqa: E402
+
+SCENE = pathlib.Path(__file__).parents[2] / "scenes" / "inverted_pendulum.lua"
+PREPARE = "sim.removeObjects{sim.getObject('/Controller'), sim.getObject('/Script')}"
+
+
+def make(count=4, **changes):
+    arguments = {
+        "observations": [gym.joint_position("/Slider", 4), gym.joint_velocity("/Slider"), gym.joint_position("/Hinge")],
+        "actions": [gym.target_velocity("/Slider", 3)],
+        "reward": "1 - math.abs(o[1]) + a[1]",
+        "terminated": "math.abs(o[3]) > 0.5",
+        "max_steps": 30,
+        "prepare": PREPARE,
+        "begin": "sim.setJointTargetVelocity(sim.getObject('/Slider'), 0.2 * math.random() - 0.1)",
+        "randomize": [vec.displacement("/Slider", [-0.1, 0, 0], [0.1, 0, 0])],
+    }
+    return vec.make(SCENE, count, **arguments | changes)
+
+
+def episode(envs, seed, steps=60):
+    """All that comes out of a number of steps."""
+    seen = [envs.reset(seed=seed)[0]]
+    rng = numpy.random.default_rng(1)
+    for _ in range(steps):
+        # All worlds get the same, so that those of other environments can.
+        action = numpy.full((envs.num_envs, 1), rng.uniform(-0.1, 0.1))
+        seen += envs.step(action)[:4]
+    return seen
+
+
+@pytest.mark.parametrize("autoreset", list(AutoresetMode)[:2])
+def test_a_world_is_the_same_alone_and_among_others(autoreset):
+    together = episode(make(5, threads=3, autoreset=autoreset), 10)
+    for world in (0, 3):
+        alone = episode(make(1, autoreset=autoreset), 10 + world)
+        assert all((one[world] == other[0]).all() for one, other in zip(together, alone))
+    assert any((each[0] != each[3]).any() for each in together)
+
+
+def test_functions_of_all_worlds_give_the_same_as_lua():
+    by_python = make(reward=lambda o, a: 1 - abs(o[:, 0]) + a[:, 0], terminated=lambda o: abs(o[:, 2]) > 0.5)
+    for one, other in zip(episode(make(), 3), episode(by_python, 3)):
+        assert (one == other).all()
+
+
+def test_episodes_end_as_gymnasium_says():
+    spaces = make()
+    assert spaces.single_observation_space.shape == (3,) and spaces.action_space.shape == (4, 1)
+    assert spaces.metadata["autoreset_mode"] == AutoresetMode.NEXT_STEP
+    next_step = make(2, terminated=None, infos={"place": gym.position("/Slider")})
+    same_step = make(2, terminated=None, autoreset="SameStep")
+    first = next_step.reset(seed=1)[1]["place"]
+    same_step.reset(seed=1)
+    zeros = numpy.zeros((2, 1))
+    for _ in range(29):
+        next_step.step(zeros), same_step.step(zeros)
+    last, _, terminated, truncated, infos = next_step.step(zeros)
+    assert truncated.all() and not terminated.any() and "final_obs" not in infos
+    begun, reward, terminated, truncated, begun_infos = next_step.step(zeros)
+    assert not truncated.any() and (reward == 0).all() and (abs(begun[:, 1]) < 1e-9).all()
+    observation, reward, _, truncated, infos = same_step.step(zeros)
+    assert truncated.all() and infos["_final_obs"].all() and (reward != 0).all()
+    assert (numpy.stack(infos["final_obs"]) == last).all() and (observation == begun).all()
+    assert (first != begun_infos["place"]).any(axis=1).all()
+
+
+def test_some_worlds_begin_again():
+    envs = make(3, autoreset="Disabled")
+    first, _ = envs.reset(seed=1)
+    moved, *_ = envs.step(numpy.ones((3, 1)))
+    begun, _ = envs.reset(seed=[7, 2, 7], options={"reset_mask": numpy.array([False, True, False])})
+    assert (begun[[0, 2]] == moved[[0, 2]]).all() and (begun[1] == first[1]).all()
+
+
+def test_infos_and_pictures():
+    envs = make(
+        2,
+        infos={"slider": gym.position("/Slider"), "time": gym.lua("sim.getSimulationTime()")},
+        cameras={"view": vec.Camera("/DefaultCamera", (32, 24))},
+        render_mode="rgb_array",
+        camera="/DefaultCamera",
+        resolution=(16, 8),
+    )
+    observation, infos = envs.reset(seed=1)
+    assert infos["slider"].shape == (2, 3) and infos["time"].shape == (2,)
+    assert observation["view"].shape == (2, 24, 32, 3) and observation["view"].std() > 0
+    assert envs.observation_space.contains(observation)
+    assert [picture.shape for picture in envs.render()] == [(8, 16, 3)] * 2
+
+
+def test_a_failing_world_is_named_and_nothing_else_is_lost():
+    fails = gym.lua("if x > 2 then error('too fast') end; sim.setJointTargetVelocity(sim.getObject('/Slider'), x)", -3, 3)
+    actions = numpy.array([[0.1], [2.5], [0.1]])
+    envs = make(3, actions=[fails])
+    envs.reset(seed=1)
+    with pytest.raises(vec.WorldError, match="world 1: .*too fast") as caught:
+        envs.step(actions)
+    assert [world for world, _ in caught.value.failures] == [1]
+    envs.step(numpy.zeros((3, 1)))
+    observation, _, _, truncated, _ = envs.step(numpy.zeros((3, 1)))
+    assert numpy.isfinite(observation).all() and not truncated.any()
+
+    envs = make(3, actions=[fails], on_error="truncate")
+    envs.reset(seed=1)
+    with pytest.warns(RuntimeWarning, match="world 1"):
+        _, rewards, _, truncated, infos = envs.step(actions)
+    assert list(truncated) == [False, True, False] and rewards[1] == 0 and rewards[0] != 0
+    assert "too fast" in infos["error"][1] and list(infos["_error"]) == [False, True, False]
+
+
+def test_wrong_actions_and_declarations_are_refused():
+    envs = make(2)
+    envs.reset(seed=1)
+    with pytest.raises(ValueError, match=r"\(2, 1\)"):
+        envs.step(numpy.zeros(2))
+    with pytest.raises(ValueError, match="action 0 of world 1 is no finite number"):
+        envs.step([[0.0], [numpy.nan]])
+    with pytest.raises(Error, match="world 0: '/Motor'"):
+        make(observations=[gym.joint_position("/Motor")])
+    with pytest.raises(Error, match="the property weight of|property 'weight'"):
+        make(observations=[gym.scene_property("/Pole", "weight")])
+    with pytest.raises(ValueError, match="'joint_position' cannot be used here"):
+        make(actions=[gym.joint_position("/Slider")])
+    with pytest.raises(Error, match="world 0: .*nowhere"):
+        vec.make("nowhere.ttt", 1, [], [], "0")
+
+
+def test_scripts_in_python_run_in_every_world(tmp_path):
+    scene = tmp_path / "scene.py"
+    scene.write_text("#python\ndef sysCall_init():\n    sim = require('sim')\n\ndef double(): return 2 * sim.getSimulationTime()\n")
+    envs = vec.make(scene, 2, [gym.function("/Script", "double")], [], "0", max_steps=3)
+    assert not envs.resets_by_snapshot
+    envs.reset(seed=1)
+    for _ in range(5):
+        observation, *_ = envs.step(numpy.zeros((2, 0)))
+    # Three steps, a new episode, and a step.
+    assert numpy.allclose(observation, 2 * 0.05)
+
+
+def test_the_wrappers_of_gymnasium_work():
+    envs = gymnasium.wrappers.vector.RecordEpisodeStatistics(make(2, terminated=None))
+    envs.reset(seed=1)
+    for _ in range(30):
+        *_, infos = envs.step(envs.action_space.sample() * 0)
+    assert list(infos["episode"]["l"]) == [30, 30]
+    envs.close()
