@@ -8,6 +8,7 @@
 
 mod api;
 mod batch;
+mod bench;
 mod built;
 mod convert;
 mod debug;
@@ -66,6 +67,7 @@ enum Command {
     Debug(debug::Args),
     Test(test::Args),
     Batch(batch::Args),
+    Bench(bench::Args),
     Api(api::Args),
     Doctor(doctor::Args),
     Inspect(inspect::Args),
@@ -135,6 +137,7 @@ impl Command {
             Self::Debug(args) => debug::debug(&args),
             Self::Test(args) => Ok(test::test(&args)),
             Self::Batch(args) => batch::batch(&args),
+            Self::Bench(args) => bench::bench(&args),
             Self::Api(args) => api::api(&args),
             Self::Doctor(args) => doctor::doctor(&args),
             Self::Inspect(args) => inspect::inspect(&args),

@@ -2,6 +2,7 @@
 
 mod bad;
 mod batch;
+mod bench;
 mod c_modules;
 mod capture;
 mod cli;

@@ -42,6 +42,7 @@ mod events;
 mod files;
 mod lifecycle;
 mod person;
+pub mod phases;
 mod plugins;
 mod present;
 mod property;

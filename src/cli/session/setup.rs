@@ -340,7 +340,8 @@ pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-fn step_length(text: &str) -> Result<f64, String> {
+/// A number of seconds above zero.
+pub(in crate::cli) fn step_length(text: &str) -> Result<f64, String> {
     let dt = seconds(text)?;
     if (0.0001..=10.0).contains(&dt) {
         Ok(dt)

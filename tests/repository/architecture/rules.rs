@@ -178,6 +178,7 @@ const SCRIPT: Rooms = &[
     // What comes from outside, on the tape.
     ("tape", &["error"]),
     ("clock", &["wall_clock"]),
+    ("phases", &["wall_clock"]),
     (
         "options",
         &["error", "log", "random", "ros_options", "wall_clock"],
@@ -232,6 +233,7 @@ const SCRIPT: Rooms = &[
             "host",
             "lifecycle",
             "log",
+            "phases",
             "sys_call",
             "wall_clock",
         ],
@@ -260,6 +262,7 @@ const SCRIPT: Rooms = &[
             "host",
             "lifecycle",
             "log",
+            "phases",
             "plugins",
             "present",
             "state_hash",

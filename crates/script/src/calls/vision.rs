@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::host::{Script, Sim};
+use crate::phases;
 use crate::sys_call::SysCall;
 use perception::vision::SensorPicture;
 use scene::sensor::{Entity, VisionReading, VisionSensor};
@@ -77,12 +78,14 @@ impl Sim {
         sensor: Handle,
         entity: Option<Entity>,
     ) -> SceneResult<VisionReading> {
-        let picture = self.perception.borrow_mut().vision.sensor_picture(
-            &self.scene.borrow(),
-            sensor,
-            entity,
-        )?;
-        let first = self.show_picture(sensor, picture)?;
+        let first = phases::sensors(|| {
+            let picture = self.perception.borrow_mut().vision.sensor_picture(
+                &self.scene.borrow(),
+                sensor,
+                entity,
+            )?;
+            self.show_picture(sensor, picture)
+        })?;
         self.evaluate_picture(sensor, first)
     }
 

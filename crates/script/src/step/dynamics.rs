@@ -7,6 +7,7 @@ use crate::calls::contacts::CONTACT;
 use crate::error::{ApiError, ApiResult};
 use crate::host::Sim;
 use crate::log::verbosity;
+use crate::phases;
 use crate::sys_call::SysCall;
 use dynamics::{Dynamics, DynamicsCall, JointRequest, ScriptAccess, Trigger, Verdicts};
 use scene::joint::Joint;
@@ -21,6 +22,10 @@ impl Sim {
     /// # Errors
     /// When called by a script that this very call has called.
     pub(crate) fn handle_dynamics(self: &Rc<Self>, time_step: f64) -> ApiResult<i64> {
+        phases::physics(|| self.step_dynamics(time_step))
+    }
+
+    fn step_dynamics(self: &Rc<Self>, time_step: f64) -> ApiResult<i64> {
         let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
         let busy = || ApiError::Other("the dynamics are already being handled.".into());
         let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else {

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::host::Sim;
+use crate::phases;
 use crate::sys_call::SysCall;
 use perception::detection::{Detected, DetectionMode};
 use perception::entity::{Entity, Group, Purpose};
@@ -49,9 +50,8 @@ impl Sim {
     /// Detects, calls the scripts of the sensor, and stores the result.
     fn sense(self: &Rc<Self>, sensor: Handle) -> SceneResult<Option<Detection>> {
         let uid = self.scene.borrow().object(sensor)?.uid();
-        let detected = self
-            .detect_as_set(sensor)?
-            .map(|detected| detected.detection);
+        let detected = phases::sensors(|| self.detect_as_set(sensor))?;
+        let detected = detected.map(|detected| detected.detection);
         let detection = detected.filter(|detection| self.trigger(sensor, detection));
         let mut scene = self.scene.borrow_mut();
         // Scripts may have removed any object.
