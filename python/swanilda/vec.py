@@ -42,6 +42,9 @@ class WorldError(RuntimeError):
         self.failures = list(failures)
         super().__init__("\n".join(f"world {world}: {reason}" for world, reason in failures))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return WorldError, (self.failures,)
+
 
 @dataclass(frozen=True)
 class Variation:
