@@ -1806,26 +1806,50 @@ enum {
     X(int, simSerialRead, "simSerialRead", (int a, unsigned char* b, int nb)) \
     X(int, simSerialSend, "simSerialSend", (int a, const char* b, int nb)) \
     X(int, simQuitSimulator, "simQuitSimulator", (bool a)) \
+    X(int, _simGetTimeDiffInMs, "_simGetTimeDiffInMs", (int a)) \
     X(int, simAddDrawingObjectItem, "simAddDrawingObjectItem_D", (int a, const void* b)) \
     X(int, simAddDrawingObject, "simAddDrawingObject_D", (int a, double b, double c, int d, int e, const float* f, const void* g, const float* h, const float* i)) \
+    X(int, simAddGraphCurve, "simAddGraphCurve_D", (int a, const char* b, int c, const void* d, const void* e, const char* f, int g, const float* h, int i)) \
+    X(int, simAddPointCloud, "simAddPointCloud_D", (int a, int b, int c, int d, double e, int f, const void* g, const void* h, const void* i, const void* j)) \
     X(int, simAdjustView, "simAdjustView", (int a, int b, int c, const char* d)) \
     X(int, simApplyTexture, "simApplyTexture_D", (int a, const void* b, int c, const void* d, const void* e, int f)) \
+    X(int, simCameraFitToView, "simCameraFitToView_D", (int a, int b, const void* c, int d, double e)) \
+    X(int, simCheckCollisionEx, "simCheckCollisionEx_D", (int a, int b, double** c)) \
     X(int, simCheckOctreePointOccupancy, "simCheckOctreePointOccupancy_D", (int a, int b, const void* c, int d, int* e, long long int* f, const void* g)) \
+    X(int, simCheckProximitySensorEx2, "simCheckProximitySensorEx2_D", (int a, const void* b, int c, int d, int e, double f, double g, double* h, double* i)) \
     X(float*, simCheckVisionSensorEx, "simCheckVisionSensorEx", (int a, int b, bool c)) \
     X(int, simConvexDecompose, "simConvexDecompose_D", (int a, int b, const int* c, const double* d)) \
     X(int, simCreateHeightfieldShape, "simCreateHeightfieldShape_D", (int a, double b, int c, int d, double e, const void* f)) \
+    X(int, simCreateShape, "simCreateShape", (int a, double b, const double* c, int nc, const int* d, int nd, const void* e, const void* f, const void* g, const int* h)) \
     X(int, simCreateTexture, "simCreateTexture_D", (const char* a, int b, const double* c, const double* d, const void* e, int f, int* g, int* h, const void* i)) \
+    X(int, simDoesFileExist, "simDoesFileExist", (const char* a)) \
     X(int, simExportMesh, "simExportMesh_D", (int a, const char* b, int c, double d, int e, const void* f, const void* g, const void* h, const void* i, const void* j, const void* k)) \
     X(int, simExtCallScriptFunction, "simExtCallScriptFunction_D", (int a, const char* b, const void* c, int d, const void* e, int f, const void* g, int h, const void* i, int j, void* k, void* l, void* m, void* n, void* o, void* p, void* q, void* r)) \
     X(int, simFloatingViewAdd, "simFloatingViewAdd_D", (double a, double b, double c, double d, int e)) \
     X(int, simFloatingViewRemove, "simFloatingViewRemove", (int a)) \
+    X(char*, simGetApiFunc, "simGetApiFunc", (int a, const char* b)) \
     X(char*, simGetApiInfo, "simGetApiInfo", (int a, const char* b)) \
     X(int, simGetDecimatedMesh, "simGetDecimatedMesh_D", (const void* a, int b, const void* c, int d, double** e, int* f, int** g, int* h, double i, int j, const void* k)) \
+    X(int, simGetHandleArrayProperty2, "simGetHandleArrayProperty2", (long long int a, const char* b, long long int** c, int* d)) \
+    X(int, simGetHandleProperty, "simGetHandleProperty", (long long int a, const char* b, long long int* c)) \
     X(int, simGetLightParameters, "simGetLightParameters_D", (int a, const void* b, double* c, double* d)) \
+    X(int, simGetModuleInfo, "simGetModuleInfo", (const char* a, int b, char** c, int* d)) \
+    X(char*, simGetModuleName, "simGetModuleName", (int a, unsigned char* b)) \
     X(int, simGetNavigationMode, "simGetNavigationMode", (void)) \
+    X(double*, simGetObjectFloatArrayParam, "simGetObjectFloatArrayParam_D", (int a, int b, int* c)) \
     X(void*, simGetOctreeVoxels, "simGetOctreeVoxels_D", (int a, int* b, const void* c)) \
     X(int, simGetPage, "simGetPage", (void)) \
+    X(char*, simGetPluginName, "simGetPluginName", (int a, unsigned char* b)) \
     X(void*, simGetPointCloudPoints, "simGetPointCloudPoints_D", (int a, int* b, const void* c)) \
+    X(int, simGetReferencedHandles, "simGetReferencedHandles", (int a, int** b, const char* c, const void* d)) \
+    X(void*, simGetScaledImage, "simGetScaledImage", (const void* a, const int* b, int* c, int d, const void* e)) \
+    X(int, simGetSimulationPassesPerRenderingPass, "simGetSimulationPassesPerRenderingPass", (void)) \
+    X(char*, simGetSimulatorMessage, "simGetSimulatorMessage", (int* a, int* b, int* c)) \
+    X(int, simGetStackColor4, "simGetStackColor4", (int a, float* b)) \
+    X(int, simGetStackPose, "simGetStackPose", (int a, double* b)) \
+    X(int, simGetStackQuaternion, "simGetStackQuaternion", (int a, double* b)) \
+    X(char*, simGetTableProperty, "simGetTableProperty", (long long int a, const char* b, int* c)) \
+    X(int, simGetTableProperty2, "simGetTableProperty2", (long long int a, const char* b, char** c, int* d)) \
     X(int, simImportMesh, "simImportMesh_D", (int a, const char* b, int c, double d, double e, void* f, void* g, void* h, void* i, void* j, void* k)) \
     X(int, simImportShape, "simImportShape_D", (int a, const char* b, int c, double d, double e)) \
     X(int, simInsertObjectIntoOctree, "simInsertObjectIntoOctree", (int a, int b, int c, const void* d, int e, const void* f)) \
@@ -1834,15 +1858,33 @@ enum {
     X(int, simInsertVoxelsIntoOctree, "simInsertVoxelsIntoOctree_D", (int a, int b, const void* c, int d, const void* e, const void* f, const void* g)) \
     X(int, simIntersectPointsWithPointCloud, "simIntersectPointsWithPointCloud_D", (int a, int b, const void* c, int d, double e, const void* f)) \
     X(int, simIsDeprecated, "simIsDeprecated", (const char* a)) \
+    X(int, simIsRealTimeSimulationStepNeeded, "simIsRealTimeSimulationStepNeeded", (void)) \
+    X(int, simPushColor4OntoStack, "simPushColor4OntoStack", (int a, const float* b)) \
+    X(int, simPushPoseOntoStack, "simPushPoseOntoStack", (int a, const double* b)) \
+    X(int, simPushQuaternionOntoStack, "simPushQuaternionOntoStack", (int a, const double* b)) \
     X(char*, simReadTexture, "simReadTexture", (int a, int b, int c, int d, int e, int f)) \
     X(int, simRefreshDialogs, "simRefreshDialogs", (int a)) \
+    X(int, simRegisterScriptFuncHook, "simRegisterScriptFuncHook", (int a, const char* b, const char* c, int d, int e)) \
     X(int, simRemoveDrawingObject, "simRemoveDrawingObject", (int a)) \
     X(int, simRemovePointsFromPointCloud, "simRemovePointsFromPointCloud_D", (int a, int b, const void* c, int d, double e, const void* f)) \
     X(int, simRemoveVoxelsFromOctree, "simRemoveVoxelsFromOctree_D", (int a, int b, const void* c, int d, const void* e)) \
+    X(int, simResetScript, "simResetScript", (int a)) \
+    X(int, simRuckigPos, "simRuckigPos", (int a, double b, int c, const void* d, const void* e, const void* f, const void* g, const void* h, const void* i)) \
+    X(int, simRuckigRemove, "simRuckigRemove", (int a)) \
+    X(int, simRuckigStep, "simRuckigStep", (int a, double b, void* c, void* d, const void* e, const void* f)) \
+    X(int, simRuckigVel, "simRuckigVel", (int a, double b, int c, const void* d, const void* e, const void* f, const void* g, const void* h, const void* i)) \
     X(int, simSaveImage, "simSaveImage", (const void* a, const int* b, int c, const char* d, int e, const void* f)) \
+    X(int, simSetHandleArrayProperty, "simSetHandleArrayProperty", (long long int a, const char* b, const long long int* c, int nc)) \
+    X(int, simSetHandleProperty, "simSetHandleProperty", (long long int a, const char* b, long long int c)) \
     X(int, simSetLightParameters, "simSetLightParameters", (int a, int b, const void* c, const float* d, const float* e)) \
+    X(int, simSetModuleInfo, "simSetModuleInfo", (const char* a, int b, const char* c, int d)) \
     X(int, simSetNavigationMode, "simSetNavigationMode", (int a)) \
     X(int, simSetPage, "simSetPage", (int a)) \
+    X(int, simSetReferencedHandles, "simSetReferencedHandles", (int a, int b, const void* c, const char* d, const void* e)) \
+    X(int, simSetSimulationPassesPerRenderingPass, "simSetSimulationPassesPerRenderingPass", (int a)) \
+    X(int, simSetTableProperty, "simSetTableProperty", (long long int a, const char* b, const char* c, int nc)) \
+    X(int, simSetVisionSensorImg, "simSetVisionSensorImg", (int a, const void* b, int c, const int* d, const int* e)) \
+    X(int, simTransformImage, "simTransformImage_D", (const void* a, const int* b, int c, const void* d, const void* e, const void* f)) \
     X(int, simWriteTexture, "simWriteTexture_D", (int a, int b, const void* c, int d, int e, int f, int g, double h))
 
 #define SWANILDA_DECLARE(result, name, symbol, parameters) extern result (*name) parameters;

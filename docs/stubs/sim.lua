@@ -1381,10 +1381,11 @@ function sim.getModelBB(handle) end
 ---@return integer property sim.modelproperty_* bits; sim.modelproperty_not_model if it is no model base
 function sim.getModelProperty(objectHandle) end
 
---- Name of a native plugin; there are none.
+--- Name of a native plugin that is loaded, by its place.
 ---@deprecated sim.getPluginName
 ---@param index integer from 0
----@return string pluginName nil
+---@return string pluginName nil behind the last one
+---@return integer version what the plugin says of itself
 function sim.getModuleName(index) end
 
 --- Splits an old-style name at its `#`; without one the suffix is -1.
@@ -1695,9 +1696,10 @@ function sim.getPathPosition(pathHandle) end
 ---@return string[] tags in alphabetical order
 function sim.getPersistentDataTags() end
 
---- Name of a native plugin; there are none.
+--- Name of a native plugin that is loaded, by its place.
 ---@param index integer from 0
----@return string pluginName nil
+---@return string pluginName nil behind the last one
+---@return integer version what the plugin says of itself
 function sim.getPluginName(index) end
 
 --- Options of a point cloud.

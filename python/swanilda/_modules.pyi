@@ -3206,8 +3206,8 @@ class _sim:
         """Flags of a model.
         objectHandle: the object
         """
-    def getModuleName(self, index: int, /) -> str:
-        """Name of a native plugin; there are none.
+    def getModuleName(self, index: int, /) -> tuple[str, int]:
+        """Name of a native plugin that is loaded, by its place.
         Deprecated: use sim.getPluginName.
         index: from 0
         """
@@ -3457,8 +3457,8 @@ class _sim:
         """Names of the data kept with the application.
         Deprecated: use properties.
         """
-    def getPluginName(self, index: int, /) -> str:
-        """Name of a native plugin; there are none.
+    def getPluginName(self, index: int, /) -> tuple[str, int]:
+        """Name of a native plugin that is loaded, by its place.
         index: from 0
         """
     def getPointCloudOptions(self, pointCloudHandle: int, /) -> tuple[float, int, int, float]:
@@ -10429,6 +10429,9 @@ class _swanilda_oldmotion:
 class _swanilda_plugins:
     def loadPlugin(self, name: Any | None = ..., /) -> Any:
         """The functions and variables of a plugin; nothing if it cannot be loaded, which the log says.
+        """
+    def ofProgram(self, name: Any | None = ..., /) -> Any:
+        """The global `name` among the functions of the program that has loaded the simulator, or the table of those before whose dot it is.
         """
     def unloadPlugin(self, plugin: Any | None = ..., options: Any | None = ..., /) -> Any:
         """Ends the use of a plugin, which loadPlugin has returned; with options.force, that of all scripts.

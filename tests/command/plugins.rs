@@ -237,10 +237,10 @@ fn misuse_fails_and_does_no_harm() {
 #[test]
 fn a_function_that_is_missing_is_named() {
     let output = run("print(loadPlugin('simT').missing())");
-    let told = "the plugin calls simCameraFitToView_D: it is not implemented in Swanilda";
+    let told = "the plugin calls simModifyPointCloud_D: it is not implemented in Swanilda";
     assert_eq!(output.matches(told).count(), 1, "{output}");
     assert!(
-        output.contains("-2, simCameraFitToView_D: it is not implemented in Swanilda"),
+        output.contains("-2, simModifyPointCloud_D: it is not implemented in Swanilda"),
         "{output}"
     );
 }

@@ -88,6 +88,17 @@ fn a_research_stack_finds_what_it_calls() {
 }
 
 #[test]
+fn programs_for_vrep_find_what_they_call() {
+    run_program("more.py");
+}
+
+#[test]
+fn calls_with_nothing_are_errors_and_no_crashes() {
+    run_program("nothing.py");
+    run_program_on("nothing.py", &written("4.10"));
+}
+
+#[test]
 fn memory_does_not_grow_with_resets() {
     run_program("resets.py");
 }

@@ -224,7 +224,7 @@ static void misuse(SScriptCallBack* p) {
 /* A function that every plugin may look up and that is not built. */
 static void missing(SScriptCallBack* p) {
     int (*function)(int) = NULL;
-    *(void**)(&function) = dlsym(library, "simCameraFitToView_D");
+    *(void**)(&function) = dlsym(library, "simModifyPointCloud_D");
     pop_all(p);
     simPushInt32OntoStack(p->stackID, function(1) + function(2));
     char* error = simGetLastError();

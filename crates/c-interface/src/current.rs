@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::buffers::Buffers;
+use super::ffi::Address;
 use super::signature::Symbol;
 use super::stacks::Stacks;
 use super::{Host, Plugin};
@@ -135,6 +136,21 @@ impl Frame {
         self.shared.buffers.borrow_mut().add(&bytes)
     }
 
+    /// The same for a result that a parameter gets: nothing is kept where the caller passes NULL, as it does not want it.
+    pub(super) fn keep_at(
+        &self,
+        place: Address,
+        ty: char,
+        result: Option<Data>,
+        length: &mut usize,
+    ) {
+        if place.is_null() {
+            bytes_of(ty, result, length);
+        } else {
+            place.write(&[self.keep(ty, result, length)]);
+        }
+    }
+
     /// Keeps a list of addresses of texts, with the texts, as one block that the caller releases; its address.
     pub(super) fn keep_texts(&self, texts: &[Vec<u8>]) -> i64 {
         self.shared.buffers.borrow_mut().add_texts(texts)
@@ -168,6 +184,10 @@ fn bytes_of(ty: char, result: Option<Data>, length: &mut usize) -> Option<Vec<u8
         ('I', Some(Data::Array(items))) => {
             let integer = |item| numbers::low_i32(super::dispatch::integer(item)).to_ne_bytes();
             (4, flattened(items.iter().map(integer)))
+        }
+        ('L', Some(Data::Array(items))) => {
+            let integer = |item| super::dispatch::integer(item).to_ne_bytes();
+            (8, items.iter().flat_map(integer).collect())
         }
         ('D', Some(Data::Array(items))) => (
             8,

@@ -31,6 +31,13 @@ enum Target {
 }
 
 impl Symbol {
+    /// Whether it is a function of scripts, `sim.name` or `simName`, or one of ours beside them.
+    pub fn is_of_scripts(&self) -> bool {
+        let name = self.function.strip_prefix("sim");
+        name.is_some_and(|name| name.starts_with(|c: char| c == '.' || c.is_ascii_uppercase()))
+            || self.function.starts_with("swanilda.")
+    }
+
     /// Whether it starts or ends a simulator, which plugins cannot do.
     pub fn is_launch(&self) -> bool {
         self.function.starts_with("launch.")
@@ -68,7 +75,7 @@ impl Interface {
             {
                 Some(function) => Target::Own(function),
                 None if row.is_launch() => Target::Launch,
-                None if row.function.starts_with("sim") => Target::Api(row.function),
+                None if row.is_of_scripts() => Target::Api(row.function),
                 None => Target::Missing,
             }
         };
@@ -129,6 +136,8 @@ impl Bound {
 pub struct Call<'a> {
     /// Who calls.
     pub frame: &'a Frame,
+    /// The name of the function in C.
+    pub(super) symbol: &'static str,
     /// The parameters that it reads, and the counts of those that it fills.
     pub args: Vec<Data>,
     /// As C passed them.
@@ -161,6 +170,7 @@ fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, Str
         }
         Target::Own(function) => function(&Call {
             frame,
+            symbol: row.symbol,
             args,
             values,
             is_double: bound.is_double,
@@ -211,6 +221,8 @@ fn argument(param: Param, value: &Value) -> Result<Data, String> {
     let text = || value.address.text().map_or(Data::Nil, Data::Text);
     Ok(match (param.ty, param.size) {
         ('s', Size::One) => text(),
+        ('w', _) if value.address.is_null() => return Err("NULL was passed for a text".into()),
+        ('w', _) => text(),
         ('t', _) if count == 0 => text(),
         ('s' | 't', _) => Data::Text(list::<u8>(value, count)?),
         ('p', _) if value.address.is_null() => Data::Nil,
@@ -275,6 +287,7 @@ fn write(
         'S' | 'P' | 'I' | 'D' | 'F' => frame.keep(row.result, results.next(), &mut length),
         'V' => frame.lend(row.symbol, 'F', results.next(), &mut length),
         'W' => frame.lend(row.symbol, 'D', results.next(), &mut length),
+        'n' => named(frame, results.next())?,
         _ => results.next().map_or(1, |first| integer(&first)),
     };
     let mut places = row
@@ -284,6 +297,14 @@ fn write(
         .filter(|(param, _)| param.is_out && param.ty != 'p');
     places.try_for_each(|(param, value)| fill(frame, *param, value, &mut results, &mut length))?;
     Ok(returned)
+}
+
+/// The handle of a new object, which gets the name that it has in V-REP.
+fn named(frame: &Frame, object: Option<Data>) -> Result<i64, String> {
+    let object = object.ok_or("there is no object")?;
+    let handle = integer(&object);
+    frame.host.call("swanilda.library.giveOldName", &[object])?;
+    Ok(handle)
 }
 
 /// Writes the next result, or the length of the one before.
@@ -298,9 +319,8 @@ fn fill(
         '#' => value
             .address
             .write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
-        'S' | 'I' | 'D' | 'F' => {
-            let address = frame.keep(param.ty, results.next(), length);
-            value.address.write(&[address]);
+        'S' | 'I' | 'L' | 'D' | 'F' => {
+            frame.keep_at(value.address, param.ty, results.next(), length);
         }
         // Output arguments without a result keep their values.
         _ => {

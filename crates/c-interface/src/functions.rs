@@ -11,9 +11,6 @@ pub type Answer = Result<Vec<Data>, String>;
 /// A function of the interface that scripts do not have, or not in this form.
 pub type Function = fn(&Call<'_>) -> Answer;
 
-/// Added to a script's handle: a call that fails is not logged.
-const SILENT: i64 = 0x0200_0000;
-
 /// The functions by their names in the table of symbols.
 const FUNCTIONS: &[(&str, Function)] = &[
     ("log", log),
@@ -21,8 +18,6 @@ const FUNCTIONS: &[(&str, Function)] = &[
     ("error.take", take_error),
     ("buffer.create", create_buffer),
     ("buffer.release", release_buffer),
-    ("script.call", call_script),
-    ("script.execute", execute),
     ("stack.create", |call| {
         Ok(vec![Data::Int(call.stacks().add(Vec::new()).into())])
     }),
@@ -46,6 +41,10 @@ const FUNCTIONS: &[(&str, Function)] = &[
                 .collect::<Vec<_>>()
                 .into(),
         )
+    }),
+    ("stack.push_numbers", |call| match call.arg(1) {
+        Data::Nil => Err("NULL was passed for the numbers".into()),
+        numbers => call.push(numbers.clone()),
     }),
     ("stack.push_table", |call| {
         call.push(Data::Array(Vec::new()))
@@ -92,6 +91,12 @@ const FUNCTIONS: &[(&str, Function)] = &[
     }),
     ("stack.numbers", |call| {
         call.found(|top| list_of(top, |item| item.as_f64().map(Data::Float)))
+    }),
+    ("stack.four_numbers", |call| {
+        call.found(|top| numbers_of(top, 4))
+    }),
+    ("stack.seven_numbers", |call| {
+        call.found(|top| numbers_of(top, 7))
     }),
     ("stack.unfold", unfold),
     ("stack.debug", debug),
@@ -155,6 +160,13 @@ impl Call<'_> {
         }
     }
 
+    /// Whether a parameter that is a function is not NULL.
+    pub fn has_callback(&self, place: usize) -> bool {
+        self.values
+            .get(place)
+            .is_some_and(|value| !value.address.is_null())
+    }
+
     /// A parameter that is a text, as UTF-8.
     ///
     /// # Errors
@@ -212,6 +224,12 @@ fn list_of(data: &Data, convert: impl Fn(&Data) -> Option<Data>) -> Option<Data>
         .map(Data::Array)
 }
 
+/// A list of so many numbers.
+fn numbers_of(data: &Data, count: usize) -> Option<Data> {
+    let list = list_of(data, |item| item.as_f64().map(Data::Float));
+    list.filter(|list| matches!(list, Data::Array(items) if items.len() == count))
+}
+
 fn log(call: &Call<'_>) -> Answer {
     let origin = call
         .text(0)
@@ -246,41 +264,6 @@ fn release_buffer(call: &Call<'_>) -> Answer {
     } else {
         Err("the simulator has no buffer there".into())
     }
-}
-
-fn call_script(call: &Call<'_>) -> Answer {
-    let (script, name, stack) = (call.int(0)?, call.text(1)?, call.int(2)?);
-    let args = std::mem::take(call.stacks().get(stack)?);
-    let (script, is_silent) = if script >= 0 {
-        (script & !SILENT, script & SILENT != 0)
-    } else {
-        (script, false)
-    };
-    let results = call
-        .frame
-        .host
-        .call_script(script, &name, &args)
-        .map_err(|reason| {
-            let text =
-                format!("External call to simCallScriptFunction failed ('{name}'): {reason}");
-            if !is_silent {
-                call.frame
-                    .host
-                    .log(call.frame.origin(), super::current::ERRORS, &text);
-            }
-            text
-        })?;
-    // The function may have released the stack.
-    *call.stacks().get(stack)? = results;
-    Ok(vec![Data::Int(0)])
-}
-
-fn execute(call: &Call<'_>) -> Answer {
-    let results = call.frame.host.execute(call.int(0)?, call.bytes(1)?)?;
-    if call.int(2)? > 0 {
-        call.stacks().get(call.int(2)?)?.extend(results);
-    }
-    Ok(vec![Data::Int(0)])
 }
 
 fn copy_stack(call: &Call<'_>) -> Answer {

@@ -26,7 +26,7 @@ mod stacks;
 
 pub use current::{Attached, Frame, attach, has_frame};
 pub use dispatch::{Call, Interface, interface_41, interface_410, plugin_interface};
-pub use ffi::Value;
+pub use ffi::{Callback, Value};
 pub use functions::{Answer, Function};
 pub use plugins::{Moment, Plugin, Plugins, Variable};
 pub use signature::{Param, Size, Symbol};
@@ -71,6 +71,12 @@ pub trait Host {
     /// # Errors
     /// When there is no such script, or the text fails.
     fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String>;
+
+    /// A function of the calling program for scripts, as a global of that name, where dots make tables. Whether it is new.
+    ///
+    /// # Errors
+    /// When there is no simulator.
+    fn register_function(&self, name: String, callback: Callback) -> Result<bool, String>;
 
     /// Writes a line to the log, in the name of `origin`, with a verbosity of `sim.verbosity_*`.
     fn log(&self, origin: &str, level: i64, text: &str);

@@ -13,17 +13,19 @@ use super::current::{Frame, Shared, within};
 use super::ffi::{Callback, Caller, Library, Message};
 use super::{Host, own_library};
 
-/// A plugin of a simulator.
+/// A plugin of a simulator, or the program that has loaded the simulator as a library.
 pub struct Plugin {
     /// The name under which scripts have its functions.
     pub name: String,
-    library: Library,
+    /// None of a program.
+    library: Option<Library>,
+    version: Cell<i32>,
     pub(super) functions: RefCell<Vec<Registered>>,
     pub(super) variables: RefCell<Vec<(String, Variable)>>,
     pub(super) infos: RefCell<BTreeMap<i64, Data>>,
     /// Calls in progress.
     calls: Cell<usize>,
-    _claim: Claim,
+    _claim: Option<Claim>,
     _resource: Resource,
 }
 
@@ -48,6 +50,8 @@ pub enum Variable {
 pub struct Plugins {
     shared: Rc<Shared>,
     loaded: RefCell<Vec<Rc<Plugin>>>,
+    /// The program that has loaded the simulator, once it has functions for scripts.
+    program: RefCell<Option<Rc<Plugin>>>,
     note: Note,
 }
 
@@ -116,7 +120,40 @@ pub enum Moment {
     SimulationCleanup = 343,
 }
 
+/// What the log calls a program.
+const PROGRAM: &str = "library";
+
 impl Plugin {
+    fn new(name: &str, library: Option<Library>, claim: Option<Claim>, resource: Resource) -> Self {
+        Self {
+            name: name.to_owned(),
+            library,
+            version: Cell::new(0),
+            functions: RefCell::default(),
+            variables: RefCell::default(),
+            infos: RefCell::default(),
+            calls: Cell::new(0),
+            _claim: claim,
+            _resource: resource,
+        }
+    }
+
+    /// A function for scripts, in place of one with that name. Whether it is new.
+    pub(super) fn register(&self, name: String, callback: Callback) -> bool {
+        let mut functions = self.functions.borrow_mut();
+        let known = functions.iter().position(|function| function.name == name);
+        match known {
+            Some(place) => functions[place].callback = callback,
+            None => functions.push(Registered { name, callback }),
+        }
+        known.is_none()
+    }
+
+    /// What its `simInit` has returned.
+    pub fn version(&self) -> i32 {
+        self.version.get()
+    }
+
     /// Names of its functions, in the order of their registration.
     pub fn functions(&self) -> Vec<String> {
         self.functions
@@ -152,6 +189,21 @@ impl Plugins {
         self.loaded.borrow().clone()
     }
 
+    /// The program that has loaded the simulator, if it has functions for scripts.
+    pub fn program(&self) -> Option<Rc<Plugin>> {
+        self.program.borrow().clone()
+    }
+
+    /// A function of that program for scripts. Whether it is new.
+    pub fn register_of_program(&self, name: String, callback: Callback) -> bool {
+        let mut program = self.program.borrow_mut();
+        let program = program.get_or_insert_with(|| {
+            let resource = Resource::new(|| "the functions of the program".to_owned());
+            Rc::new(Plugin::new(PROGRAM, None, None, resource))
+        });
+        program.register(name, callback)
+    }
+
     /// From now on the function that is running is noted in a file.
     pub fn note_calls(&self, file: Option<PathBuf>) {
         self.note.file.replace(file);
@@ -165,18 +217,10 @@ impl Plugins {
         let own_library = own_library::connected()?;
         let claim = Claim::of(path)?;
         let library = Library::open(path)?;
-        let plugin = Rc::new(Plugin {
-            name: name.to_owned(),
-            library,
-            functions: RefCell::default(),
-            variables: RefCell::default(),
-            infos: RefCell::default(),
-            calls: Cell::new(0),
-            _claim: claim,
-            _resource: Resource::new(|| format!("the memory of the plugin {name}")),
-        });
+        let resource = Resource::new(|| format!("the memory of the plugin {name}"));
+        let plugin = Rc::new(Plugin::new(name, Some(library), Some(claim), resource));
         let version = self.run(host, &plugin, "simInit", |plugin| {
-            plugin.library.start(&plugin.name, own_library)
+            library.start(&plugin.name, own_library)
         });
         if version == 0 {
             let reason = self
@@ -189,6 +233,7 @@ impl Plugins {
                 reason.unwrap_or_default()
             ));
         }
+        plugin.version.set(version);
         self.loaded.borrow_mut().push(Rc::clone(&plugin));
         Ok(plugin)
     }
@@ -242,7 +287,10 @@ impl Plugins {
                 values,
             };
             self.run(Rc::clone(&host), &plugin, "simMsg", |plugin| {
-                plugin.library.receive(message);
+                plugin
+                    .library
+                    .iter()
+                    .for_each(|library| library.receive(message));
             });
         }
     }
@@ -253,7 +301,7 @@ impl Plugins {
             .borrow_mut()
             .retain(|loaded| !Rc::ptr_eq(loaded, plugin));
         self.run(host, plugin, "simCleanup", |plugin| {
-            plugin.library.clean_up();
+            plugin.library.iter().for_each(Library::clean_up);
         });
     }
 

@@ -2,7 +2,7 @@
 
 use super::dispatch::Call;
 use super::functions::{Answer, Function};
-use super::plugins::{Registered, Variable};
+use super::plugins::Variable;
 use scene::Data;
 
 /// The functions by their names in the table of symbols.
@@ -21,13 +21,15 @@ fn register_function(call: &Call<'_>) -> Answer {
         .get(2)
         .and_then(|value| value.address.callback())
         .ok_or("NULL is no function")?;
-    let mut functions = call.frame.plugin()?.functions.borrow_mut();
-    let known = functions.iter().position(|function| function.name == name);
-    match known {
-        Some(place) => functions[place].callback = callback,
-        None => functions.push(Registered { name, callback }),
-    }
-    Ok(vec![Data::Bool(known.is_none())])
+    let is_new = match &call.frame.plugin {
+        Some(plugin) => plugin.register(name, callback),
+        None => {
+            // Programs may name a plugin behind the function, which they are not.
+            let function = name.split('@').next().unwrap_or_default().to_owned();
+            call.frame.host().register_function(function, callback)?
+        }
+    };
+    Ok(vec![Data::Bool(is_new)])
 }
 
 fn register_variable(call: &Call<'_>) -> Answer {

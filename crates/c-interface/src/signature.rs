@@ -4,14 +4,15 @@
 //!
 //! A row has four columns: symbol, result, parameters, function.
 //! - Results: `v` nothing; `k` 1 if the call succeeded; `i` and `l` the first result as an integer, 1 without one; `r` the same, and the
-//!   parameters get the others; `q` whether there is a result; `d` and `f` a number, `double` or `float`; `S`, `P`, `I`, `D`, `F` bytes,
-//!   memory, integers, numbers or floats that the caller releases; `V` and `W` floats and doubles that the caller does not release,
-//!   valid until the next call of the function. Where the call fails: -1, -1.0 or NULL.
+//!   parameters get the others; `n` a new object, which gets the name that it has in V-REP; `q` whether there is a result; `d` and `f` a
+//!   number, `double` or `float`; `S`, `P`, `I`, `D`, `F` bytes, memory, integers, numbers or floats that the caller releases; `V` and `W`
+//!   floats and doubles that the caller does not release, valid until the next call of the function. Where the call fails: -1, -1.0 or NULL.
 //! - Parameters: `i` int, `l` long long, `d` double, `b` bool, `B` an int that means a bool, `s` text (`t#`: also where its length
-//!   is 0), `p` an address (`>p`: the function writes there), `c` a callback. `d3`
+//!   is 0), nil for NULL, `w` the same where NULL is an error, `p` an address (`>p`: the function writes there), `c` a callback. `d3`
 //!   points to three numbers, `d#` to as many as the next parameter says; `u`, `f` are bytes and floats. `>` before them: the host
-//!   writes there. `=`: it reads and writes. `>#`: the length of what is returned. `>S`, `>I`, `>D`, `>F`: what is returned, by pointer.
-//! - Functions: `sim.name` is called with the parameters, or with those that are listed after it, counted from 0; `-` is missing;
+//!   writes there. `=`: it reads and writes. `>#`: the length of what is returned. `>S`, `>I`, `>L`, `>D`, `>F`: what is returned, by
+//!   pointer.
+//! - Functions: `sim.name` is called with the parameters, or with those that are listed after it, counted from 0 (`-` for none); `-` is missing;
 //!   everything else is in `functions` or `scene_functions`.
 
 /// A symbol of the C interface.
@@ -157,7 +158,7 @@ impl Param {
 
     /// Whether C passes an address.
     pub fn is_pointer(&self) -> bool {
-        self.is_out || self.size != Size::One || matches!(self.ty, 's' | 't' | 'p' | 'c')
+        self.is_out || self.size != Size::One || matches!(self.ty, 's' | 't' | 'w' | 'p' | 'c')
     }
 
     fn c_type(&self) -> &'static str {
@@ -167,9 +168,10 @@ impl Param {
             'f' => "float",
             'u' => "unsigned char",
             'b' => "bool",
-            's' | 't' => "char",
+            's' | 't' | 'w' => "char",
             'S' => "char*",
             'I' => "int*",
+            'L' => "long long int*",
             'D' => "double*",
             'F' => "float*",
             'p' => "void",

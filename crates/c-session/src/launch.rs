@@ -31,6 +31,9 @@ pub(crate) const FUNCTIONS: &[(&str, Function)] = &[
         answer(state().exit_is_requested)
     }),
     ("launch.step", |call| step(*call.arg(0) == Data::Bool(true))),
+    ("launch.simulator", run_simulator),
+    ("launch.main_script", main_script),
+    ("launch.advance", advance),
     ("launch.gui", |_| wait_for_end()),
     ("launch.initialize", initialize),
     ("launch.loop", |call| {
@@ -42,6 +45,9 @@ pub(crate) const FUNCTIONS: &[(&str, Function)] = &[
 
 /// The parameters that a program may set before the start: what is logged, and what the status bar of the original shows.
 const VERBOSITY: [i64; 2] = [121, 122];
+
+/// `sim.simulation_advancing`.
+const ADVANCING: i64 = 16;
 
 const BUSY: &str = "a simulator of this process is running: end it first";
 
@@ -178,6 +184,49 @@ fn destroy() -> Answer {
     state.ends += 1;
     ENDED.notify_all();
     answer(true)
+}
+
+/// A whole run on this thread, as programs for V-REP have it. Parameters: name of the application, options of windows, functions to call
+/// at the start, in each pass of the loop and at the end; perhaps a delay, and a scene or model. Without a function for the passes they are
+/// those of [`step`].
+fn run_simulator(call: &Call<'_>) -> Answer {
+    let state = state();
+    if !matches!(state.phase, Phase::Idle) {
+        return Err(BUSY.into());
+    }
+    let scene = call.text(6).unwrap_or_default();
+    let launch = Launch {
+        scene: (!scene.is_empty()).then(|| PathBuf::from(scene)),
+        root: PathBuf::from("."),
+        has_old_add_ons: true,
+        verbosity: state.verbosity.clone(),
+    };
+    start(state, &launch)?;
+    call.run_callback(2);
+    while !self::state().exit_is_requested {
+        step(!call.has_callback(3))?;
+        call.run_callback(3);
+    }
+    call.run_callback(4);
+    destroy()
+}
+
+/// The step of a simulation that runs, which programs with a loop of their own ask for; 0 as no bit of a failure is set.
+fn main_script(call: &Call<'_>) -> Answer {
+    if is_advancing(call)? {
+        step(true)?;
+    }
+    Ok(vec![Data::Int(0)])
+}
+
+/// [`main_script`] has advanced the time already.
+fn advance(call: &Call<'_>) -> Answer {
+    answer(is_advancing(call)?)
+}
+
+fn is_advancing(call: &Call<'_>) -> Result<bool, String> {
+    let state = call.frame.host().call("sim.getSimulationState", &[])?;
+    Ok(matches!(state.first(), Some(Data::Int(state)) if state & ADVANCING != 0))
 }
 
 /// Parameters: folder of the library, options of windows.

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use c_interface::{Attached, Host, attach, has_frame};
+use c_interface::{Attached, Callback, Host, attach, has_frame};
 use scene::Data;
 
 use crate::launch;
@@ -39,6 +39,10 @@ impl Host for NoSimulator {
     }
 
     fn execute(&self, _: i64, _: &[u8]) -> Result<Vec<Data>, String> {
+        Err(launch::why_no_simulator())
+    }
+
+    fn register_function(&self, _: String, _: Callback) -> Result<bool, String> {
         Err(launch::why_no_simulator())
     }
 

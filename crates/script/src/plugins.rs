@@ -7,7 +7,7 @@ use std::rc::{Rc, Weak};
 use super::error::{ApiError, ApiResult};
 use super::log::verbosity;
 use crate::host::{Script, Sim};
-use c_interface::{Host, Moment, Plugin, Plugins};
+use c_interface::{Callback, Host, Moment, Plugin, Plugins};
 use scene::object::script_object::ScriptType;
 use scene::{Data, Journal, Mark, Topic, Topics};
 
@@ -102,25 +102,43 @@ impl Sim {
         })
     }
 
+    /// Name and version of a native plugin by its place in the order in which they were loaded.
+    pub(crate) fn plugin_by_place(&self, place: usize) -> Option<(String, i32)> {
+        let loaded: Rc<LoadedPlugins> = self.modules.states.existing()?;
+        let plugins = loaded.plugins.all();
+        let plugin = plugins.get(place)?;
+        Some((plugin.name.clone(), plugin.version()))
+    }
+
     /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
     pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
         self.modules.registry.module(namespace(name)).is_some()
             && self.options.plugin_file(name).is_err()
     }
 
-    /// Calls a function of a plugin, by its place, for a script.
+    /// The names of the functions for scripts that the program has registered which has loaded the simulator as a library.
+    pub(crate) fn functions_of_program(&self) -> Vec<String> {
+        let loaded = self.modules.states.existing::<LoadedPlugins>();
+        let program = loaded.and_then(|loaded| loaded.plugins.program());
+        program.map_or_else(Vec::new, |program| program.functions())
+    }
+
+    /// Calls a function of a plugin, or of the program that has loaded the simulator, by its place, for a script.
     ///
     /// # Errors
     /// When the plugin was unloaded, or its error.
     pub(crate) fn call_plugin(
         self: &Rc<Self>,
         script: &Rc<Script>,
-        plugin: &str,
+        plugin: Option<&str>,
         function: usize,
         args: Vec<Data>,
     ) -> ApiResult<Vec<Data>> {
         let loaded = self.loaded_plugins();
-        let plugin = loaded.plugins.get(plugin);
+        let plugin = match plugin {
+            Some(name) => loaded.plugins.get(name),
+            None => loaded.plugins.program(),
+        };
         let plugin =
             plugin.ok_or_else(|| ApiError::Other("the plugin is not loaded any more.".into()))?;
         let object = self.object_of(script);
@@ -317,8 +335,7 @@ impl Host for ScriptHost {
     fn call_script(&self, script: i64, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
         let sim = self.sim()?;
         let script = self.script(&sim, script)?;
-        sim.call_function(&script, function, args)
-            .map_err(|error| error.to_string())
+        sim.call_for_program(&script, function, args)
     }
 
     fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String> {
@@ -326,6 +343,11 @@ impl Host for ScriptHost {
         let script = self.script(&sim, script)?;
         sim.execute_string(&script, text)
             .map_err(|error| error.to_string())
+    }
+
+    fn register_function(&self, name: String, callback: Callback) -> Result<bool, String> {
+        let loaded = self.sim()?.loaded_plugins();
+        Ok(loaded.plugins.register_of_program(name, callback))
     }
 
     fn log(&self, origin: &str, level: i64, text: &str) {

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use c_interface::Host;
+use c_interface::{Callback, Host};
 use heap::{Handle, enter_and_copy};
 use scene::Data;
 
@@ -51,6 +51,10 @@ impl Host for CHost {
 
     fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String> {
         self.with(|host| host.execute(script, text))
+    }
+
+    fn register_function(&self, name: String, callback: Callback) -> Result<bool, String> {
+        self.with(|host| host.register_function(name.clone(), callback))
     }
 
     fn log(&self, origin: &str, level: i64, text: &str) {

@@ -10,6 +10,9 @@ local M = {}
 --- The functions and variables of a plugin; nothing if it cannot be loaded, which the log says.
 function M.loadPlugin(name) end
 
+--- The global `name` among the functions of the program that has loaded the simulator, or the table of those before whose dot it is.
+function M.ofProgram(name) end
+
 --- Ends the use of a plugin, which loadPlugin has returned; with options.force, that of all scripts.
 function M.unloadPlugin(plugin, options) end
 

@@ -70,18 +70,6 @@ function M.closeModule(module) return 0 end
 -- @return count 0
 function M.handleModule(module, calledInSensingPart) return 0 end
 
---- Name of a native plugin; there are none.
--- @api string pluginName = sim.getPluginName(int index)
--- @param index from 0
--- @return pluginName nil
-function M.getPluginName(index) return nil end
-
---- Name of a native plugin; there are none.
--- @api string moduleName = sim.getModuleName(int index)
--- @param index from 0
--- @return moduleName nil
-function M.getModuleName(index) return nil end
-
 --- Tests of the original's developers: there are none here.
 -- @api sim.test(string cmd, ...)
 -- @param cmd any

@@ -5,7 +5,7 @@ The plugin runs in the simulator; here are only its names. A table is made once 
 ]]
 
 local M = {}
-local loadNative, callNative, unloadNative = _loadPlugin, _callPlugin, _unloadPlugin
+local loadNative, callNative, unloadNative, programFunctions = _loadPlugin, _callPlugin, _unloadPlugin, _programFunctions
 
 -- Dots in names make tables in tables.
 local function put(into, name, value)
@@ -44,6 +44,15 @@ function M.loadPlugin(name)
     end
     sim_plugin_namespaces[plugin.name] = members
     return members
+end
+
+--- The global `name` among the functions of the program that has loaded the simulator, or the table of those before whose dot it is.
+function M.ofProgram(name)
+    local members = {}
+    for place, functionName in ipairs(programFunctions()) do
+        put(members, functionName, function(...) return callNative(nil, place - 1, ...) end)
+    end
+    return members[name]
 end
 
 --- Ends the use of a plugin, which loadPlugin has returned; with options.force, that of all scripts.

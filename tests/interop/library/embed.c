@@ -22,6 +22,24 @@ char* simGetLastError(void);
 int simReleaseBuffer(const char* buffer);
 float simGetSimulationTime(void);
 int simHandleMill(int mill, float* removed);
+int simRunSimulator(const char* name, int options, void (*init)(void), void (*loop)(void), void (*deinit)(void));
+int simGetSimulationState(void);
+int simHandleMainScript(void);
+int simAdvanceSimulationByOneStep(void);
+
+struct SScriptCallBack {
+    int objectID, scriptID, stackID;
+    char waitUntilZero;
+    char* raiseErrorWithMessage;
+};
+int simRegisterScriptCallbackFunction(const char* name, const char* calltip, void (*callback)(struct SScriptCallBack*));
+int simExecuteScriptString(int script, const char* text, int stack);
+int simCreateStack(void);
+int simReleaseStack(int stack);
+int simPopStackItem(int stack, int count);
+int simGetStackFloatValue(int stack, float* value);
+int simPushFloatOntoStack(int stack, float value);
+int simSetLastError(const char* function, const char* text);
 
 static const char* root;
 
@@ -38,6 +56,30 @@ static void check(int holds, const char* what) {
     exit(1);
 }
 
+static void twice(struct SScriptCallBack* p) {
+    float value = 0;
+    simGetStackFloatValue(p->stackID, &value);
+    simPopStackItem(p->stackID, 0);
+    if (value < 0) simSetLastError("embed", "below zero");
+    else simPushFloatOntoStack(p->stackID, 2 * value);
+}
+
+/* Functions of the program are globals of scripts, those that run already too. */
+static void functions_for_scripts(void) {
+    enum { SANDBOX = 8 };
+    float value = 0;
+    int stack = simCreateStack();
+    check(simExecuteScriptString(SANDBOX, "simExtTwice(4)@", stack) == -1, "not there yet");
+    check(simRegisterScriptCallbackFunction("simExtTwice@Embed", "number y=simExtTwice(number x)", twice) == 1, "new");
+    check(simRegisterScriptCallbackFunction("simExtTwice@Embed", NULL, twice) == 0, "known");
+    check(simRegisterScriptCallbackFunction("Embed.twice@Embed", NULL, twice) == 1, "in a table");
+    check(simRegisterScriptCallbackFunction("none@Embed", NULL, NULL) == -1, "no function");
+    check(simExecuteScriptString(SANDBOX, "simExtTwice(4) + Embed.twice(10)@", stack) == 0, "call");
+    check(simGetStackFloatValue(stack, &value) == 1 && value == 28, "result");
+    check(simExecuteScriptString(SANDBOX, "simExtTwice(-1)@", stack) == -1, "error");
+    check(simReleaseStack(stack) == 1, "release");
+}
+
 static void run(void) {
     pthread_t launch;
     check(pthread_create(&launch, NULL, wait_in_launch, NULL) == 0, "thread");
@@ -52,6 +94,7 @@ static void run(void) {
     check(name && strcmp(name, "Marker") == 0 && simReleaseBuffer(name) == 1, "its name");
     check(simReleaseBuffer(name) == -1, "released twice");
     check(simHandleMill(1, here) == -1, "missing");
+    functions_for_scripts();
     simStartSimulation();
     for (int step = 0; step < 10; step++) check(simExtStep(1) == 1, "step");
     check(simGetSimulationTime() > 0.49f, "time");
@@ -61,10 +104,30 @@ static void run(void) {
     pthread_join(launch, NULL);
 }
 
+/* The loop of programs for V-REP: the simulator calls them, on the thread that started it. */
+static int begun, passes, ended;
+
+static void begin(void) { begun += simStartSimulation() == 1; }
+
+static void end(void) { ended++; }
+
+static void pass(void) {
+    check(begun == 1 && ended == 0, "order");
+    int is_advancing = simGetSimulationState() & 16;
+    if (is_advancing) check(simHandleMainScript() == 0 && simAdvanceSimulationByOneStep() == 1, "pass");
+    if (++passes == 20) {
+        check(simGetSimulationTime() > 0.89f && simGetSimulationTime() < 1.01f, "one step in each pass");
+        check(simRunSimulator("embed", 0, NULL, NULL, NULL) == -1, "within a run");
+        simExtPostExitRequest();
+    }
+}
+
 int main(int count, char** args) {
     root = count > 1 ? args[1] : ".";
     run();
     run();
+    check(simRunSimulator("embed", 0, begin, pass, end) == 1, "run");
+    check(passes == 20 && ended == 1 && simGetSimulationState() == -1, "ended");
     puts("ok");
     return 0;
 }

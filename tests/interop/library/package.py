@@ -13,6 +13,7 @@ from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_longlong, c_void_
 
 ROOT = os.environ["COPPELIASIM_ROOT"]
 STRING_PARAM_PYTHON_FOLDER = 137
+VIEW_FRUSTUM = 1019
 
 lib = ctypes.cdll.LoadLibrary(ROOT + "/libcoppeliaSimHeadless.so")
 for name in ("simGetStackStringValue", "simGetStringParam", "simGetLastError"):
@@ -166,6 +167,77 @@ def lists_of_doubles():
     lib.simSetSimulationTimeStep_D(c_double(0.05))
 
 
+def newer_functions():
+    """Functions of plugins for 4.10: poses on stacks, handles and tables as properties, named references, shapes and images."""
+    doubles = lambda *numbers: (c_double * len(numbers))(*numbers)
+    dummy, other = call("sim.createDummy", 0.1)[0], call("sim.createDummy", 0.1)[0]
+    stack, pose, read = lib.simCreateStack(), doubles(1, 2, 3, 0, 0, 0, 1), doubles(*[0] * 7)
+    assert lib.simPushPoseOntoStack(stack, pose) == 1 and lib.simPushPoseOntoStack(stack, None) == -1
+    assert lib.simGetStackPose(stack, read) == 1 and list(read) == list(pose)
+    assert lib.simGetStackQuaternion(stack, read) == 0
+    lib.simReleaseStack(stack)
+    target, number, size = c_longlong(dummy), c_longlong(), c_int()
+    assert lib.simSetHandleProperty(target, b"customData.handle", c_longlong(other)) == 1
+    assert lib.simGetHandleProperty(target, b"customData.handle", byref(number)) == 1 and number.value == other
+    handles = ctypes.POINTER(c_longlong)()
+    assert lib.simSetHandleArrayProperty(target, b"customData.handles", (c_longlong * 2)(other, dummy), 2) == 1
+    assert lib.simGetHandleArrayProperty2(target, b"customData.handles", byref(handles), byref(size)) == 1
+    assert handles[0 : size.value] == [other, dummy]
+    lib.simReleaseBuffer(handles)
+    call("sim.setTableProperty", dummy, "customData.table", {"a": 1, "b": [2, 3]})
+    lib.simGetTableProperty.restype = c_void_p
+    packed = text_of(lib.simGetTableProperty(target, b"customData.table", byref(size)), size.value)
+    assert lib.simSetTableProperty(target, b"customData.copy", packed, len(packed)) == 1
+    assert call("sim.getTableProperty", dummy, "customData.copy") == [{"a": 1, "b": [2, 3]}]
+    found = ctypes.POINTER(c_int)()
+    assert lib.simSetReferencedHandles(dummy, 1, (c_int * 1)(other), b"tag", None) == 1
+    assert lib.simGetReferencedHandles(dummy, byref(found), b"tag", None) == 1 and found[0] == other
+    lib.simReleaseBuffer(found)
+    assert lib.simGetReferencedHandles(dummy, None, None, None) == 0
+
+
+def shapes_and_images():
+    doubles = lambda *numbers: (c_double * len(numbers))(*numbers)
+    corners, indices = doubles(0, 0, 0, 1, 0, 0, 0, 1, 0), (c_int * 3)(0, 1, 2)
+    coordinates, pixels = (ctypes.c_float * 6)(0, 0, 1, 0, 0, 1), (ctypes.c_ubyte * 12)(*range(12))
+    plain = lib.simCreateShape(0, c_double(0.3), corners, 9, indices, 3, None, None, None, None)
+    textured = lib.simCreateShape(0, c_double(0.3), corners, 9, indices, 3, None, coordinates, pixels, (c_int * 2)(2, 2))
+    assert [call("sim.getObjectType", shape) for shape in (plain, textured)] == [[0], [0]], text_of(lib.simGetLastError())
+    assert (lib.simGetShapeTextureId(plain), lib.simGetShapeTextureId(textured) >= 0) == (-1, True)
+    camera = call("sim.createVisionSensor", 1, [2, 1, 0, 0], [0.1, 1.0, 0.5, 0.1] + [0.0] * 7)[0]
+    image, sides = (ctypes.c_ubyte * 6)(1, 2, 3, 4, 5, 6), (c_int * 2)()
+    assert lib.simSetVisionSensorImg(camera, image, 0, None, None) == 1
+    assert lib.simSetVisionSensorImg(camera, image, 0, (c_int * 2)(1, 0), (c_int * 2)(1, 1)) == 1
+    assert lib.simSetVisionSensorImg(camera, None, 0, None, None) == -1
+    lib.simGetVisionSensorImg_D.restype = c_void_p
+    seen = text_of(lib.simGetVisionSensorImg_D(camera, 0, c_double(0), None, None, sides), 6)
+    assert (seen, list(sides)) == (bytes([1, 2, 3, 1, 2, 3]), [2, 1])
+    size = c_int()
+    lib.simGetObjectFloatArrayParam_D.restype = ctypes.POINTER(c_double)
+    frustum = lib.simGetObjectFloatArrayParam_D(camera, VIEW_FRUSTUM, byref(size))
+    assert size.value == 6 and abs(frustum[2] - 0.1) < 1e-6, frustum[0 : size.value]
+
+
+def motion_and_hooks():
+    doubles = lambda *numbers: (c_double * len(numbers))(*numbers)
+    state, left, steps = doubles(0, 0, 0), c_double(), 0
+    selection, limits = (ctypes.c_ubyte * 1)(1), doubles(1, 1, 1)
+    motion = lib.simRuckigPos(1, c_double(0.0001), -1, state, limits, selection, doubles(1, 0), None, None)
+    while lib.simRuckigStep(motion, c_double(0.05), state, byref(left), None, None) == 0:
+        steps += 1
+    # Jerk 1 all the way.
+    assert abs(steps * 0.05 - 32 ** (1 / 3)) < 0.1 and abs(state[0] - 1) < 1e-6, (steps, list(state))
+    assert lib.simRuckigRemove(motion) == 1 and lib.simRuckigStep(motion, c_double(0.05), state, None, None, None) == -1
+    assert lib.simExecuteScriptString(-1, b"count = 0 function hooked() count = count + 1 end", 0) == 0
+    assert lib.simRegisterScriptFuncHook(-1, b"sysCall_nonSimulation", b"hooked", 1, 0) == 1, text_of(lib.simGetLastError())
+    for _ in range(3):
+        lib.simLoop(None, 0)
+    stack, count = lib.simCreateStack(), c_double()
+    assert lib.simExecuteScriptString(-1, b"count", stack) == 0
+    assert lib.simGetStackDoubleValue(stack, byref(count)) == 1 and count.value == 3, count.value
+    lib.simReleaseStack(stack)
+
+
 def simulation(calls):
     call("sim.startSimulation")
     for _ in range(10):
@@ -182,7 +254,7 @@ def simulation(calls):
 def session(failures):
     try:
         assert lib.simInitialize(ROOT.encode(), 0) == 1, text_of(lib.simGetLastError())
-        for check in (functions_by_name, modules, types_of_functions, lists_of_doubles, lambda: simulation([])):
+        for check in (functions_by_name, modules, types_of_functions, lists_of_doubles, newer_functions, shapes_and_images, motion_and_hooks, lambda: simulation([])):
             check()
         assert lib.simGetExitRequest() == 0
         call("sim.quitSimulator")

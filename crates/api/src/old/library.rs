@@ -3,14 +3,24 @@
 use api_macro::api;
 
 use crate::display::drawing::HANDLE_BITS;
+use crate::scripts::script::callee_at_end;
 use crate::shapes::texture;
 use crate::{ApiFn, Cx, Result, functions};
 use scene::numbers;
 use scene::shape::options::MeshOptions;
-use scene::{Handle, SceneError};
-use script::{Bytes, Number};
+use scene::{Handle, Kind, SceneError};
+use script::{Bytes, Number, Text};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![apply_texture, drawing_item_size];
+use super::default_names::default_name;
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    apply_texture,
+    drawing_item_size,
+    give_old_name,
+    callee,
+    scripts,
+    is_step_needed,
+];
 
 /// Puts an image on a shape, with a place in the image for each corner of its triangles.
 ///
@@ -58,4 +68,49 @@ fn drawing_item_size(cx: &Cx, drawing_object_handle: Number) -> Result<i64> {
         .drawings()
         .get(drawing_object_handle.0 & HANDLE_BITS)?;
     Ok(numbers::count(drawing.item_len()))
+}
+
+/// Names a new object as V-REP does: `Vision_sensor`, and where there is one already `Vision_sensor0`.
+///
+/// @param objectHandle the object
+#[api("swanilda.library.giveOldName")]
+fn give_old_name(cx: &mut Cx, object_handle: Handle) -> Result<()> {
+    let name = default_name(cx.scene().object(object_handle)?);
+    Ok(cx.scene_mut().set_old_name(object_handle, name)?)
+}
+
+/// The script that is meant by its handle, or by its type with the name of its object or its own behind the last `@` of a text.
+///
+/// @param text the name of a function, or code
+/// @param scriptHandleOrType the script, or sim.scripttype_*
+/// @return scriptHandle the script
+/// @return text without the name
+#[api("swanilda.library.callee")]
+fn callee(cx: &Cx, text: Bytes, script_handle_or_type: i64) -> Result<(i64, Text)> {
+    let (script, length) = callee_at_end(cx, script_handle_or_type, &text.0)?;
+    let mut text = text.0;
+    text.truncate(length);
+    Ok((script.id, Text(text)))
+}
+
+/// All scripts.
+///
+/// @return scriptHandles those that are objects last
+#[api("swanilda.library.scripts")]
+fn scripts(cx: &Cx) -> Result<Vec<i64>> {
+    let mut handles = cx.detached_scripts();
+    let scene = cx.scene();
+    let objects = scene
+        .objects()
+        .filter(|object| matches!(object.kind, Kind::Script(_)));
+    handles.extend(objects.map(|object| object.handle().raw()));
+    Ok(handles)
+}
+
+/// Whether a simulation in real-time mode has to step now to keep up with the clock.
+///
+/// @return isNeeded
+#[api("swanilda.library.isStepNeeded")]
+fn is_step_needed(cx: &Cx) -> Result<bool> {
+    Ok(cx.real_time_step_is_due())
 }

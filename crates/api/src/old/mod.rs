@@ -2,6 +2,7 @@
 
 pub(crate) mod button_interfaces;
 pub(crate) mod calculation_objects;
+mod default_names;
 pub(crate) mod engine_param;
 pub(crate) mod globals;
 pub(crate) mod ik_groups;

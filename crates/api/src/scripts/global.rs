@@ -24,7 +24,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     used_module,
     load_plugin,
     call_plugin,
+    program_functions,
     unload_plugin,
+    get_plugin_name,
     register_code_editor_infos,
 ];
 
@@ -266,20 +268,29 @@ fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
 
 /// Calls a function of a native plugin.
 ///
-/// @param plugin its name
+/// @param plugin its name; nil: the program that has loaded the simulator
 /// @param place of the function among those of the plugin, from 0
 /// @param ... what the function gets
 /// @return results what the function has left on its stack
 #[api("_callPlugin")]
 fn call_plugin(
     cx: &mut Cx,
-    plugin: String,
+    plugin: Option<String>,
     place: i64,
     #[name("...")] values: Rest,
 ) -> Result<Results> {
     // A place that is none is no function of the plugin.
     let place = usize::try_from(place).unwrap_or(usize::MAX);
-    cx.call_plugin(&plugin, place, values.0).map(Results)
+    cx.call_plugin(plugin.as_deref(), place, values.0)
+        .map(Results)
+}
+
+/// The functions for scripts of the program that has loaded the simulator as a library.
+///
+/// @return names in the order of their registration
+#[api("_programFunctions")]
+fn program_functions(cx: &Cx) -> Result<Vec<String>> {
+    Ok(cx.functions_of_program())
 }
 
 /// Ends the use of a native plugin by this script. With its last user it is unloaded.
@@ -289,6 +300,20 @@ fn call_plugin(
 #[api("_unloadPlugin")]
 fn unload_plugin(cx: &mut Cx, name: String, #[default(false)] force: bool) -> Result<()> {
     cx.unload_plugin(&name, force)
+}
+
+/// Name of a native plugin that is loaded, by its place.
+///
+/// @param index from 0
+/// @return pluginName nil behind the last one
+/// @return version what the plugin says of itself
+#[api("sim.getPluginName")]
+fn get_plugin_name(cx: &Cx, index: script::Number) -> Result<(Option<String>, Option<i64>)> {
+    let place = usize::try_from(index.0).ok();
+    let plugin = place.and_then(|place| cx.plugin_by_place(place));
+    Ok(plugin.map_or((None, None), |(name, version)| {
+        (Some(name), Some(version.into()))
+    }))
 }
 
 /// Accepted for scripts that describe themselves to the original's editor.

@@ -6,7 +6,7 @@ use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::object::script_object::{ScriptObject, ScriptType};
-use scene::{Data, Handle, Kind, SceneError, special};
+use scene::{Data, Handle, Kind, SceneError, is_legal_old_name, special};
 use script::Source;
 use script::{Bytes, InTurn, Number, Rest, Results, Script};
 
@@ -193,6 +193,32 @@ fn callee<'a>(cx: &Cx, raw: i64, name: &'a str) -> Result<(Rc<Script>, &'a str)>
     };
     let id = cx.script_by_name(script_type, owner)?;
     Ok((script_of(cx, id)?, function))
+}
+
+/// The same for programs that load the simulator: `f@name` or `code@name`, where the name is behind the last `@`. The length of what is
+/// before it.
+pub(crate) fn callee_at_end(cx: &Cx, raw: i64, text: &[u8]) -> Result<(Rc<Script>, usize)> {
+    let at = text.iter().rposition(|&byte| byte == b'@');
+    let name = at.map(|at| String::from_utf8_lossy(&text[at + 1..]).into_owned());
+    let is_name = |name: &str| {
+        name.is_empty() || name.starts_with(['/', '.', ':']) || is_legal_old_name(name)
+    };
+    let (length, name) = match (at, name) {
+        (Some(at), Some(name)) if is_name(&name) => (at, name),
+        _ => (text.len(), String::new()),
+    };
+    let by_handle = script_of(cx, raw);
+    let is_language = matches!(name.as_str(), "lua" | "python");
+    let Some(script_type) = ScriptType::from_number(raw).filter(|_| !is_language) else {
+        return Ok((by_handle?, length));
+    };
+    match by_handle {
+        Ok(script) if name.is_empty() => Ok((script, length)),
+        _ => Ok((
+            script_of(cx, cx.script_by_name(script_type, &name)?)?,
+            length,
+        )),
+    }
 }
 
 /// One of the two leading arguments of a call: a name or a handle.

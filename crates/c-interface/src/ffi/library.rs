@@ -60,9 +60,9 @@ pub(crate) struct Message {
     pub values: [c_int; 4],
 }
 
-/// A function that a plugin has registered for scripts.
+/// A function that a plugin or a program has registered for scripts.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Callback(pub(super) CallbackEntry);
+pub struct Callback(pub(super) CallbackEntry);
 
 /// On whose behalf a callback runs.
 #[derive(Debug, Clone, Copy)]
@@ -118,7 +118,7 @@ impl Library {
 
 impl Callback {
     /// Calls it; the error it left in the older way, if it did.
-    pub fn call(self, caller: Caller) -> Option<String> {
+    pub(crate) fn call(self, caller: Caller) -> Option<String> {
         let mut error = [0 as c_char; ERROR_BUFFER];
         let mut info = CallbackInfo {
             object: caller.object,

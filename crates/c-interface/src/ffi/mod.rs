@@ -7,7 +7,8 @@
 mod library;
 mod memory;
 
-pub(super) use library::{Callback, Caller, Library, Message, connect};
+pub use library::Callback;
+pub(super) use library::{Caller, Library, Message, connect};
 pub use memory::Value;
 pub(crate) use memory::{Address, Plain};
 

@@ -2,7 +2,7 @@
 
 use scene::Data;
 
-use super::pointers::integers_of;
+use super::pointers::{area, integers_of};
 use crate::dispatch::Call;
 use crate::functions::{Answer, Function};
 
@@ -20,7 +20,10 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("camera.set_bytes", set_bytes),
     ("camera.check_image", check_image),
     ("light.get", light),
+    ("camera.set_img", set_part),
     ("image.save", save_image),
+    ("image.scaled", scaled_image),
+    ("image.transform", transform_image),
     ("texture.write", write_texture),
 ];
 
@@ -61,21 +64,23 @@ fn depth(call: &Call<'_>) -> Answer {
     }
 }
 
-/// How many numbers an image of the sensor has, and the sensor as scripts name it.
+/// How many numbers an image of the sensor has.
 fn size(call: &Call<'_>) -> Result<usize, String> {
     let sensor = call.integer_at(0);
-    let args = [Data::Int(sensor & !(PACKED | GREYSCALE))];
+    let channels = if sensor & GREYSCALE == 0 { 3 } else { 1 };
+    size_of(call, sensor & !(PACKED | GREYSCALE), channels)
+}
+
+fn size_of(call: &Call<'_>, sensor: i64, channels: usize) -> Result<usize, String> {
+    let args = [Data::Int(sensor)];
     let results = call
         .frame
         .host()
         .call("sim.getVisionSensorResolution", &args)?;
-    let sides = results.first().map(integers_of).unwrap_or_default();
-    let channels = if sensor & GREYSCALE == 0 { 3 } else { 1 };
-    let side = |place: usize| {
-        let side = sides.get(place).copied().unwrap_or_default();
-        usize::try_from(side).unwrap_or_default()
-    };
-    Ok(side(0).saturating_mul(side(1)).saturating_mul(channels))
+    match results.first().map(integers_of).as_deref() {
+        Some(&[width, height]) => Ok(area([width, height]).saturating_mul(channels)),
+        _ => Err("there is no such image".into()),
+    }
 }
 
 fn set_image(call: &Call<'_>) -> Answer {
@@ -112,14 +117,72 @@ fn light(call: &Call<'_>) -> Answer {
     Ok(results)
 }
 
+/// Parameters: sensor, pixels, options, corner, width and height of the part; no such part: the whole image. Option 1: one number a
+/// pixel; option 2: depths as floats.
+fn set_part(call: &Call<'_>) -> Answer {
+    let (sensor, options) = (call.integer_at(0), call.integer_at(2));
+    let of_part = |place: usize| match call.arg(place) {
+        Data::Nil => Data::from([0, 0]),
+        numbers => numbers.clone(),
+    };
+    let (corner, part) = (of_part(3), of_part(4));
+    let pixels = match integers_of(&part)[..] {
+        [width, height] if width > 0 && height > 0 => area([width, height]),
+        _ => size_of(call, sensor, 1)?,
+    };
+    let bytes = match options & 3 {
+        0 => 3,
+        1 => 1,
+        _ => 4,
+    };
+    let args = [
+        Data::Int(sensor),
+        Data::Text(call.list_at(1, pixels.saturating_mul(bytes))?),
+        Data::Int(options),
+        corner,
+        part,
+    ];
+    call.frame.host().call("sim.setVisionSensorImg", &args)
+}
+
+/// The pixels of an image by the address of its width and height; option 1: they have an alpha channel.
+fn pixels_at(call: &Call<'_>, place: usize, sides: usize, options: i64) -> Result<Data, String> {
+    let sides = call.list_at::<i32>(sides, 2)?;
+    let channels = if options & 1 == 0 { 3 } else { 4 };
+    let count = area([sides[0], sides[1]]).saturating_mul(channels);
+    Ok(Data::Buffer(call.list_at(place, count)?))
+}
+
+/// Parameters: pixels, width and height, those that are wanted and that the result has, options.
+fn scaled_image(call: &Call<'_>) -> Answer {
+    let args = [
+        pixels_at(call, 0, 1, call.integer_at(3))?,
+        call.integers_at(1, 2)?,
+        call.integers_at(2, 2)?,
+        Data::Int(call.integer_at(3)),
+    ];
+    call.frame.host().call("sim.getScaledImage", &args)
+}
+
+/// Parameters: pixels, which are changed, width and height, options.
+fn transform_image(call: &Call<'_>) -> Answer {
+    let args = [
+        pixels_at(call, 0, 1, call.integer_at(2))?,
+        call.integers_at(1, 2)?,
+        Data::Int(call.integer_at(2)),
+    ];
+    let results = call.frame.host().call("sim.transformImage", &args)?;
+    match results.first() {
+        Some(Data::Text(pixels) | Data::Buffer(pixels)) => call.write_at(0, pixels),
+        _ => return Err("there is no image".into()),
+    }
+    Ok(Vec::new())
+}
+
 /// Parameters: pixels, width and height, options, file, quality. Option 1: pixels have an alpha channel.
 fn save_image(call: &Call<'_>) -> Answer {
-    let sides = call.list_at::<i32>(1, 2)?;
-    let side = |place: usize| usize::try_from(sides[place]).unwrap_or_default();
-    let channels = if call.integer_at(2) & 1 == 0 { 3 } else { 4 };
-    let count = side(0).saturating_mul(side(1)).saturating_mul(channels);
     let args = [
-        Data::Buffer(call.list_at(0, count)?),
+        pixels_at(call, 0, 1, call.integer_at(2))?,
         call.integers_at(1, 2)?,
         Data::Int(call.integer_at(2)),
         Data::Text(call.bytes(3)?.to_vec()),

@@ -57,7 +57,8 @@ fn get(call: &Call<'_>, function: &str, none: Data) -> Answer {
     Ok(match results {
         Ok(results) => vec![results.into_iter().next().unwrap_or(none), Data::Bool(true)],
         Err(reason) => {
-            call.frame.set_last_error(reason);
+            let text = format!("{}: {reason}", call.symbol);
+            call.frame.set_last_error(text);
             vec![none, Data::Bool(false)]
         }
     })

@@ -2,7 +2,7 @@
 
 use scene::{Data, Key};
 
-use super::pointers::{integers_of, singles};
+use super::pointers::{area, floats, integers_of, singles};
 use crate::dispatch::Call;
 use crate::functions::{Answer, Function};
 
@@ -11,6 +11,9 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("mesh.import", import),
     ("mesh.export", export),
     ("mesh.decimate", decimate),
+    ("shape.create", create_shape),
+    ("shape.vertex", vertex),
+    ("shape.triangle", triangle),
     ("shape.viz", viz),
     ("shape.heightfield", heightfield),
     ("shape.texture", apply_texture),
@@ -90,9 +93,7 @@ fn heightfield(call: &Call<'_>) -> Answer {
 /// Parameters: shape, coordinates, their count, pixels, width and height, options. Option 16: pixels have an opacity.
 fn apply_texture(call: &Call<'_>) -> Answer {
     let sides = call.list_at::<i32>(4, 2)?;
-    let side = |place: usize| usize::try_from(sides[place]).unwrap_or_default();
-    let channels = if call.integer_at(5) & 16 == 0 { 3 } else { 4 };
-    let bytes = side(0).saturating_mul(side(1)).saturating_mul(channels);
+    let bytes = image_bytes([sides[0], sides[1]], call.integer_at(5));
     let args = [
         Data::Int(call.integer_at(0)),
         call.numbers_at(1, call.count_at(2)?)?,
@@ -115,12 +116,80 @@ fn create_texture(call: &Call<'_>) -> Answer {
     call.frame.host().call("sim.createTexture", &args)
 }
 
+/// Parameters: options, shading angle, vertices, indices, three numbers of a normal and two coordinates of a texture for each index,
+/// pixels, width and height. Option 16: pixels have an opacity.
+fn create_shape(call: &Call<'_>) -> Answer {
+    let corners = match call.arg(3) {
+        Data::Array(indices) => indices.len(),
+        _ => 0,
+    };
+    let bytes = match integers_of(call.arg(7))[..] {
+        [width, height] => image_bytes([width, height], call.integer_at(0)),
+        _ => 0,
+    };
+    let mut args = call.args[..4].to_vec();
+    args.push(call.optional_numbers_at(4, corners.saturating_mul(3))?);
+    let coordinates: Option<Vec<f32>> = call.optional_at(5, corners.saturating_mul(2))?;
+    args.push(coordinates.map_or(Data::Nil, floats));
+    let texture: Option<Vec<u8>> = call.optional_at(6, bytes)?;
+    args.push(texture.map_or(Data::Nil, Data::Buffer));
+    args.push(call.arg(7).clone());
+    call.frame.host().call("sim.createShape", &args)
+}
+
+/// Option of textures: there is an opacity for each pixel.
+const WITH_OPACITY: i64 = 16;
+
+fn image_bytes(sides: [i32; 2], options: i64) -> usize {
+    let channels = if options & WITH_OPACITY == 0 { 3 } else { 4 };
+    area(sides).saturating_mul(channels)
+}
+
+/// Parameters: shape, its mesh, vertex. Whether there is such a vertex, and its place in the frame of the shape.
+fn vertex(call: &Call<'_>) -> Answer {
+    let mesh = mesh_of(call)?;
+    Ok(match items_at(&entry(&mesh, "vertices"), call.int(2)?, 3) {
+        Some(place) => vec![Data::Int(1), place],
+        None => vec![Data::Int(0)],
+    })
+}
+
+/// Parameters: shape, its mesh, triangle. Whether there is such a triangle, its vertices, and the normals there.
+fn triangle(call: &Call<'_>) -> Answer {
+    let mesh = mesh_of(call)?;
+    let at = |name, size| items_at(&entry(&mesh, name), call.int(2).unwrap_or(-1), size);
+    Ok(match at("indices", 3) {
+        Some(indices) => vec![Data::Int(1), indices, at("normals", 9).unwrap_or(Data::Nil)],
+        None => vec![Data::Int(0)],
+    })
+}
+
+/// What there is of one mesh of a shape; nothing behind the last one.
+fn mesh_of(call: &Call<'_>) -> Result<Vec<(Key, Data)>, String> {
+    let results = call.frame.host().call("sim.getShapeViz", &call.args[..2])?;
+    Ok(match results.into_iter().next() {
+        Some(Data::Map(mesh)) => mesh,
+        _ => Vec::new(),
+    })
+}
+
+/// The items of a list that belong to one of its elements, each of which has `size` items.
+fn items_at(list: &Data, place: i64, size: usize) -> Option<Data> {
+    let Data::Array(items) = list else {
+        return None;
+    };
+    let place = usize::try_from(place).ok()?;
+    let found = items.chunks_exact(size).nth(place)?;
+    Some(Data::Array(found.to_vec()))
+}
+
 /// Writes a `SShapeVizInfo`. Returns 0 where the shape has no such mesh, 1 without and 2 with a texture.
 fn viz(call: &Call<'_>) -> Answer {
-    let results = call.frame.host().call("sim.getShapeViz", &call.args[..2])?;
-    let Some(Data::Map(mesh)) = results.first() else {
+    let mesh = mesh_of(call)?;
+    let mesh = &mesh[..];
+    if mesh.is_empty() {
         return Ok(vec![Data::Int(0)]);
-    };
+    }
     let mut info = Structure::default();
     info.list(call, 0, 'F', entry(mesh, "vertices"));
     info.list(call, 16, 'I', entry(mesh, "indices"));

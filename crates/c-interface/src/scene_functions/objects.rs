@@ -21,6 +21,7 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("sensor.check", |call| {
         detection(call, "sim.checkProximitySensor")
     }),
+    ("sensor.check_points", check_points),
     ("camera.read", |call| packets(call, "sim.readVisionSensor")),
     ("camera.handle", |call| {
         packets(call, "sim.handleVisionSensor")
@@ -66,9 +67,29 @@ fn find_script(call: &Call<'_>) -> Answer {
         .call("sim.getScript", &[call.arg(0).clone(), owner.clone()])
 }
 
+/// Parameters: sensor, corners, the kind of items, their count, mode, threshold, greatest angle.
+fn check_points(call: &Call<'_>) -> Answer {
+    let corners = match call.integer_at(2) {
+        kind @ 0..=2 => numbers::index(kind as f64) + 1,
+        kind => {
+            return Err(format!(
+                "{kind} is no kind of items: 0 are points, 1 segments, 2 triangles"
+            ));
+        }
+    };
+    let count = call.count_at(3)?.saturating_mul(3 * corners);
+    let mut args = call.args.clone();
+    args[1] = call.numbers_at(1, count)?;
+    detected(call.frame.host.call("sim.checkProximitySensorEx2", &args)?)
+}
+
 /// Whether something was detected; point and distance; the object; the normal.
 fn detection(call: &Call<'_>, function: &str) -> Answer {
-    let mut results = call.frame.host.call(function, &call.args)?.into_iter();
+    detected(call.frame.host.call(function, &call.args)?)
+}
+
+fn detected(results: Vec<Data>) -> Answer {
+    let mut results = results.into_iter();
     let (state, distance) = (results.next().unwrap_or(Data::Int(0)), results.next());
     let point = match results.next() {
         Some(Data::Array(mut point)) => {
@@ -173,7 +194,7 @@ fn read_serial(call: &Call<'_>) -> Answer {
 }
 
 /// The items of a table; nothing of all else.
-fn items(data: Data) -> Vec<Data> {
+pub(super) fn items(data: Data) -> Vec<Data> {
     if let Data::Array(items) = data {
         items
     } else {
@@ -182,7 +203,7 @@ fn items(data: Data) -> Vec<Data> {
 }
 
 /// The bytes of a text; nothing of all else.
-fn bytes(data: Data) -> Vec<u8> {
+pub(super) fn bytes(data: Data) -> Vec<u8> {
     if let Data::Text(bytes) | Data::Buffer(bytes) = data {
         bytes
     } else {

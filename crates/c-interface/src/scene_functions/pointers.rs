@@ -182,7 +182,8 @@ fn integers(values: Vec<i32>) -> Data {
     values.into_iter().map(i64::from).collect::<Vec<_>>().into()
 }
 
-fn floats(values: Vec<f32>) -> Data {
+/// Floats as scripts get them.
+pub(super) fn floats(values: Vec<f32>) -> Data {
     values.into_iter().map(f64::from).collect::<Vec<_>>().into()
 }
 
@@ -209,4 +210,10 @@ pub(super) fn integers_of(data: &Data) -> Vec<i32> {
     };
     let integer = |item| numbers::low_i32(crate::dispatch::integer(item));
     items.iter().map(integer).collect()
+}
+
+/// The pixels of an image by its width and height.
+pub(super) fn area(sides: [i32; 2]) -> usize {
+    let [width, height] = sides.map(|side| usize::try_from(side).unwrap_or_default());
+    width.saturating_mul(height)
 }

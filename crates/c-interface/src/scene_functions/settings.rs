@@ -10,6 +10,9 @@ use crate::functions::{Answer, Function};
 const TIME_STEP: i64 = 1;
 /// Properties of a script: its text.
 const SCRIPT_TEXT: i64 = 10110;
+/// The scene as the target of properties, and its passes for each picture.
+const SCENE: i64 = -12;
+const PASSES: &str = "stepsPerRendering";
 /// What a configuration of a tree begins with: a mark, and how many bytes follow.
 const CONFIGURATION: &[u8; 8] = b"swaconf1";
 
@@ -17,7 +20,10 @@ const CONFIGURATION: &[u8; 8] = b"swaconf1";
 pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("parameter.set_text", set_text),
     ("simulation.set_time_step", set_time_step),
-    ("value.copy", |call| Ok(call.args.clone())),
+    ("value.copy", |call| match call.arg(0) {
+        Data::Nil => Err("NULL was passed for the values".into()),
+        values => Ok(vec![values.clone()]),
+    }),
     ("selection.get", |call| {
         call.write_at(0, &selection(call)?);
         Ok(Vec::new())
@@ -29,6 +35,19 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
         let last = selection(call)?.pop().unwrap_or(-1);
         Ok(vec![Data::Int(last.into())])
     }),
+    ("selection.scale", |call| {
+        let args = [selected(call)?, call.arg(0).clone(), call.arg(1).clone()];
+        call.frame.host().call("sim.scaleObjects", &args)
+    }),
+    ("selection.delete", |call| {
+        call.frame
+            .host()
+            .call("sim.removeObjects", &[selected(call)?])
+    }),
+    ("selection.copy", copy_selection),
+    ("simulation.passes", passes),
+    ("simulation.set_passes", set_passes),
+    ("file.exists", file_exists),
     ("script.text", |call| {
         let args = [Data::Int(call.integer_at(0)), Data::Int(SCRIPT_TEXT)];
         call.frame.host().call("sim.getScriptStringParam", &args)
@@ -55,6 +74,38 @@ fn set_time_step(call: &Call<'_>) -> Answer {
 fn selection(call: &Call<'_>) -> Result<Vec<i32>, String> {
     let results = call.frame.host().call("sim.getObjectSel", &[])?;
     Ok(results.first().map(integers_of).unwrap_or_default())
+}
+
+/// The selected objects.
+fn selected(call: &Call<'_>) -> Result<Data, String> {
+    let objects = selection(call)?.into_iter().map(i64::from);
+    Ok(objects.collect::<Vec<_>>().into())
+}
+
+/// The copies are selected instead.
+fn copy_selection(call: &Call<'_>) -> Answer {
+    let args = [selected(call)?, Data::Int(0)];
+    let host = call.frame.host();
+    let copies = host.call("sim.copyPasteObjects", &args)?;
+    host.call("sim.setObjectSel", &copies[..copies.len().min(1)])?;
+    Ok(Vec::new())
+}
+
+fn passes(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(SCENE), Data::text(PASSES)];
+    call.frame.host().call("sim.getIntProperty", &args)
+}
+
+fn set_passes(call: &Call<'_>) -> Answer {
+    let args = [Data::Int(SCENE), Data::text(PASSES), call.arg(0).clone()];
+    call.frame.host().call("sim.setIntProperty", &args)
+}
+
+/// Whether there is such a file, which is no folder.
+fn file_exists(call: &Call<'_>) -> Answer {
+    let args = [Data::Text(call.bytes(0)?.to_vec()), Data::text("mode")];
+    let kind = call.frame.host().call("lfs.attributes", &args)?;
+    Ok(vec![Data::Bool(kind.first() == Some(&Data::text("file")))])
 }
 
 /// The force of a motor without the sign that it has since 4.3.

@@ -29,22 +29,47 @@ impl Sim {
         name: &str,
         args: &[Data],
     ) -> ApiResult<Vec<Data>> {
+        self.call_for_results(script, name, args)?
+            .map_err(|_| ApiError::ErrorInCallee)
+    }
+
+    /// The same; the callee's own error is told.
+    ///
+    /// # Errors
+    /// In CoppeliaSim's words, or the message of the callee's error.
+    pub(crate) fn call_for_program(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        name: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, String> {
+        match self.call_for_results(script, name, args) {
+            Ok(results) => results.map_err(|error| error.message().to_owned()),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    /// The inner result is the callee's own; its error is logged and ends it.
+    fn call_for_results(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Result<Vec<Data>, ScriptError>> {
         let runtime = script
             .current_runtime()
             .ok_or(ApiError::ScriptNotInitialized)?;
         if !script.is_running() {
             return Err(ApiError::CallFailed);
         }
-        let results = self
-            .call_named(script, &runtime, name, args)?
-            .map_err(|error| {
-                self.fail(script, &error);
-                ApiError::ErrorInCallee
-            });
+        let results = self.call_named(script, &runtime, name, args)?;
+        if let Err(error) = &results {
+            self.fail(script, error);
+        }
         if runtime.env.depth.get() == 0 {
             self.complete_call(script, SysCall::Ext, None);
         }
-        results
+        Ok(results)
     }
 
     /// The inner result is the callee's own.

@@ -24,13 +24,23 @@ impl Cx<'_> {
         Ok(self.sim.load_plugin(self.script(), name))
     }
 
-    /// Calls a function of a plugin, by its place.
+    /// Name and version of a native plugin by its place in the order in which they were loaded.
+    pub fn plugin_by_place(&self, place: usize) -> Option<(String, i32)> {
+        self.sim.plugin_by_place(place)
+    }
+
+    /// The names of the functions for scripts that the program has registered which has loaded the simulator as a library.
+    pub fn functions_of_program(&self) -> Vec<String> {
+        self.sim.functions_of_program()
+    }
+
+    /// Calls a function of a plugin, or of that program, by its place.
     ///
     /// # Errors
     /// The plugin's.
     pub fn call_plugin(
         &mut self,
-        plugin: &str,
+        plugin: Option<&str>,
         function: usize,
         args: Vec<Data>,
     ) -> ApiResult<Vec<Data>> {

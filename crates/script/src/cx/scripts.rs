@@ -29,6 +29,12 @@ impl Cx<'_> {
         self.sim.script_by_name(script_type, name)
     }
 
+    /// Handles of the scripts that are no objects, in the order of their creation.
+    pub fn detached_scripts(&self) -> Vec<i64> {
+        let scripts = self.sim.scripts.all_detached();
+        scripts.iter().map(|script| script.id).collect()
+    }
+
     /// Script calls in progress, over all states.
     pub fn call_depth(&self) -> usize {
         self.sim.scripts.depth()

@@ -45,6 +45,12 @@ impl Cx<'_> {
         self.sim.loop_iteration();
     }
 
+    /// Whether a simulation in real-time mode has to step now to keep up with the clock.
+    pub fn real_time_step_is_due(&self) -> bool {
+        let is_real_time = self.sim.scene.borrow().settings().real_time;
+        is_real_time && self.sim.clock.state().is_advancing() && self.sim.step_is_due()
+    }
+
     /// The physics; None during a sub-step.
     pub fn dynamics(&self) -> Option<Ref<'_, Dynamics>> {
         Ref::filter_map(self.sim.dynamics.borrow(), Option::as_ref).ok()

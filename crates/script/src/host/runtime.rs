@@ -230,6 +230,12 @@ pub struct ScriptError {
 }
 
 impl ScriptError {
+    /// The text without the traceback.
+    pub fn message(&self) -> &str {
+        let end = self.text.find("\nstack traceback:");
+        &self.text[..end.unwrap_or(self.text.len())]
+    }
+
     /// An error that is logged.
     pub fn new(text: impl Into<String>) -> Self {
         Self {

@@ -82,7 +82,7 @@ fn pairs_sim(stack: Stack<'_>) -> Outcome {
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     // Most globals that scripts look up without success are no functions of the simulator: the name is copied only if it is one.
     let Some(true) = stack.with_bytes(2, implicit::is_candidate) else {
-        return Ok(0);
+        return index_program(stack);
     };
     let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else {
         return Ok(0);
@@ -91,7 +91,7 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
         return Ok(1);
     }
     match stack.env().registry.members_of_sim().of_global(&name) {
-        None => return Ok(0),
+        None => return index_program(stack),
         Some(Member::Native(id)) => push_function_of_old_name(stack, id),
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Missing(id)) => push_missing(stack, id),
@@ -100,6 +100,29 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
             push_lua_member(stack, &sim, file, function)?;
         }
     }
+    Ok(1)
+}
+
+/// Functions of the program that has loaded the simulator as a library: it registers them at any time, so they are no globals at first.
+fn index_program(stack: Stack<'_>) -> Result<c_int, String> {
+    let Some(sim) = stack.env().sim.upgrade() else {
+        return Ok(0);
+    };
+    let functions = sim.functions_of_program();
+    if functions.is_empty() {
+        return Ok(0);
+    }
+    let name = stack.bytes(2).unwrap_or_default();
+    let begins = |function: &String| {
+        let rest = function.as_bytes().strip_prefix(&name[..]);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(b"."))
+    };
+    if !functions.iter().any(begins) {
+        return Ok(0);
+    }
+    push_lua_member(stack, &sim, "swanilda/plugins", "ofProgram")?;
+    stack.push_bytes(&name);
+    stack.protected_call(1, 1).map_err(|error| error.text)?;
     Ok(1)
 }
 
