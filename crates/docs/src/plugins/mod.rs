@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+#[cfg(test)]
+mod rows;
+
 use super::{approximated::difference, modules};
 use c_interface::plugin_interface;
 use script::ReferenceModule;
@@ -88,27 +91,4 @@ fn row(module: ReferenceModule, state: State) -> String {
         State::Missing => ("missing".to_owned(), module.instead),
     };
     format!("| `{name}` | {purpose} | {state} | {instead} |\n")
-}
-
-#[cfg(test)]
-mod tests {
-    use c_interface::plugin_interface;
-    use script::Member;
-
-    #[test]
-    fn every_function_of_scripts_that_plugins_call_is_there() {
-        let registry = modules::registry();
-        let is_there = |name: &str| {
-            matches!(
-                registry.find(name),
-                Some(Member::Native(_) | Member::Lua { .. })
-            )
-        };
-        let called = plugin_interface()
-            .symbols()
-            .map(|row| row.function)
-            .filter(|function| function.starts_with("sim."));
-        let missing: Vec<_> = called.filter(|function| !is_there(function)).collect();
-        assert!(missing.is_empty(), "{missing:?}");
-    }
 }
