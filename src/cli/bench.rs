@@ -13,7 +13,7 @@ use super::{Outcome, complain, say};
 use script::log::verbosity;
 use script::phases::{self, Phases};
 use simulator::{Console, LogLine, Options, Simulator};
-use vector::{Declaration, Failure, Reset, Vector};
+use vector::{Declaration, Failure, Vector};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
@@ -180,27 +180,15 @@ impl Args {
     }
 
     fn declaration(&self, scene: &Path, options: Options) -> Declaration {
+        let options = Options {
+            render_threads: NonZero::new(1),
+            ..options
+        };
         Declaration {
-            scene: scene.to_owned(),
             kind: self.kind.into(),
             time_step: self.dt,
-            options: Options {
-                render_threads: NonZero::new(1),
-                threads: NonZero::<usize>::MIN,
-                ..options
-            },
-            observations: Vec::new(),
-            actions: Vec::new(),
-            infos: Vec::new(),
-            cameras: Vec::new(),
-            reward: None,
-            terminated: None,
-            prepare: None,
-            begin: None,
             max_steps: self.steps,
-            steps_per_action: 1,
-            variations: Vec::new(),
-            reset: Reset::Either,
+            ..Declaration::new(scene.to_owned(), options)
         }
     }
 }

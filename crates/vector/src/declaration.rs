@@ -42,6 +42,30 @@ pub struct Declaration {
     pub reset: Reset,
 }
 
+impl Declaration {
+    /// A scene in which nothing is read or written, with episodes without end.
+    pub fn new(scene: PathBuf, options: Options) -> Self {
+        Self {
+            scene,
+            kind: ScriptKind::Customization,
+            time_step: None,
+            options,
+            observations: Vec::new(),
+            actions: Vec::new(),
+            infos: Vec::new(),
+            cameras: Vec::new(),
+            reward: None,
+            terminated: None,
+            prepare: None,
+            begin: None,
+            max_steps: 0,
+            steps_per_action: 1,
+            variations: Vec::new(),
+            reset: Reset::Either,
+        }
+    }
+}
+
 /// Numbers that are read in a scene. Objects are named by their paths.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Quantity {

@@ -3,10 +3,8 @@
 mod episodes;
 mod errors;
 
-use script::Options;
-use simulator::ScriptKind;
-
 use crate::{Declaration, Quantity, Reset, Vector};
+use script::Options;
 
 #[global_allocator]
 static ALLOCATOR: heap::Allocator = heap::Allocator;
@@ -38,29 +36,18 @@ fn declared(code: &str) -> (tempfile::TempDir, Declaration) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = folder.path().join("scene.lua");
     std::fs::write(&scene, code).expect("the folder is writable");
+    let options = Options {
+        render_threads: std::num::NonZero::new(1),
+        ..Options::default()
+    };
     let declaration = Declaration {
-        scene,
-        kind: ScriptKind::Customization,
-        time_step: None,
-        options: Options {
-            render_threads: std::num::NonZero::new(1),
-            ..Options::default()
-        },
         observations: vec![
             Quantity::Position("/ball".into()),
             Quantity::Velocity("/ball".into()),
         ],
         actions: vec![crate::Action::Function("/Script".into(), "push_by".into())],
-        infos: Vec::new(),
-        cameras: Vec::new(),
-        reward: None,
-        terminated: None,
-        prepare: None,
-        begin: None,
-        max_steps: 0,
-        steps_per_action: 1,
-        variations: Vec::new(),
         reset: Reset::Snapshot,
+        ..Declaration::new(scene, options)
     };
     (folder, declaration)
 }
