@@ -21,6 +21,8 @@ use scene::shape::Primitive;
 
 /// Smallest thickness of a collider, metres.
 const MIN_THICKNESS: f64 = 0.0001;
+/// Largest number of convex forms of a shape that are colliders of their own.
+const MAX_SEPARATE_FORMS: usize = 8;
 /// Sizes of meshes that collide, metres; smaller and larger ones collide with nothing.
 const MESH_SIZES: std::ops::Range<f64> = 1e-6..1e6;
 
@@ -112,26 +114,30 @@ fn has_volume(mesh: &Mesh) -> bool {
         .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }
 
-/// The same forms, but none turned where several are: as a part of one that is not. A collider that is turned cannot be without mass to the last digit (see
+/// The same forms, but the convex ones as one where several are turned, or where there are many: rapier looks at each pair of colliders in each sub-step, and two
+/// neighbours of a robot whose links have fifty parts each are 2500 pairs. A collider that is turned cannot be without mass to the last digit either (see
 /// [`carrier`](super::mass::carrier)).
-pub(super) fn without_several_turned(
+pub(super) fn with_few_colliders(
     forms: Vec<(EnginePose, SharedShape)>,
 ) -> Vec<(EnginePose, SharedShape)> {
     let is_turned = |pose: &EnginePose| pose.rotation != EnginePose::IDENTITY.rotation;
-    if forms.iter().filter(|(pose, _)| is_turned(pose)).count() < 2 {
+    let turned = forms.iter().filter(|(pose, _)| is_turned(pose)).count();
+    if turned < 2 && forms.len() <= MAX_SEPARATE_FORMS {
         return forms;
     }
-    let upright = |(pose, form): (EnginePose, SharedShape)| {
-        let parts = match form.as_compound() {
-            Some(group) => group
-                .shapes()
-                .iter()
-                .map(|(place, part)| (pose * *place, part.clone()))
-                .collect(),
-            None if form.is_convex() => vec![(pose, form)],
-            None => return (pose, form),
-        };
-        (EnginePose::IDENTITY, SharedShape::compound(parts))
-    };
-    forms.into_iter().map(upright).collect()
+    let (mut parts, mut surfaces) = (Vec::new(), Vec::new());
+    for (pose, form) in forms {
+        match form.as_compound() {
+            Some(group) => {
+                let placed = group.shapes().iter();
+                parts.extend(placed.map(|(place, part)| (pose * *place, part.clone())));
+            }
+            None if form.is_convex() => parts.push((pose, form)),
+            None => surfaces.push((pose, form)),
+        }
+    }
+    if !parts.is_empty() {
+        surfaces.insert(0, (EnginePose::IDENTITY, SharedShape::compound(parts)));
+    }
+    surfaces
 }

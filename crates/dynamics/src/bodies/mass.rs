@@ -20,7 +20,7 @@ pub(super) fn mass_properties(mass: &geometry::MassProperties) -> MassProperties
 
 /// Which collider is to carry the mass of its body; None for the body itself. rapier adds the masses of colliders, and decomposes each sum anew, badly (see
 /// [`mass_properties`]), unless one of the two is zero to the last digit: a collider without mass that is turned is not. The only one that is turned can carry
-/// the mass; with several turned ones none is left turned ([`without_several_turned`](super::colliders::without_several_turned)).
+/// the mass; with several turned ones none is left turned ([`with_few_colliders`](super::colliders::with_few_colliders)).
 pub(super) fn carrier<'a>(poses: impl Iterator<Item = &'a EnginePose>) -> Option<usize> {
     let mut turned = poses
         .enumerate()

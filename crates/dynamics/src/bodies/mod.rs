@@ -225,7 +225,7 @@ impl Body {
             .parts
             .iter()
             .flat_map(|part| colliders::forms(part, self.build.dynamic, made));
-        let forms = colliders::without_several_turned(forms.collect());
+        let forms = colliders::with_few_colliders(forms.collect());
         let carrier = carrier(forms.iter().map(|(pose, _)| pose));
         for (index, (pose, form)) in forms.into_iter().enumerate() {
             let builder = ColliderBuilder::new(form).position(pose);

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::rc::Rc;
 
+use rapier3d_f64::parry::bounding_volume::BoundingVolume;
 use scene::Pose;
 
 use super::*;
@@ -90,24 +91,47 @@ fn meshes_become_hulls_pieces_or_surfaces() {
     assert!((volume - 0.048).abs() < 1e-9, "{volume}");
 }
 
+fn turned(angle: f64) -> (EnginePose, SharedShape) {
+    let pose = EnginePose::from_rotation(Rotation::from_rotation_x(angle));
+    (pose, SharedShape::cuboid(0.1, 0.2, 0.3))
+}
+
+/// The extents of all parts of colliders, and their volume.
+fn whole(forms: &[(EnginePose, SharedShape)]) -> (Vector, Vector, f64) {
+    let boxes = forms.iter().map(|(pose, form)| form.compute_aabb(pose));
+    let whole = boxes.reduce(|a, b| a.merged(&b)).expect("there are some");
+    let volumes = forms
+        .iter()
+        .map(|(_, form)| form.mass_properties(1.0).mass());
+    (whole.mins, whole.maxs, volumes.sum())
+}
+
 #[test]
-fn several_turned_forms_become_parts_of_upright_ones() {
-    let turned = |angle: f64| {
-        let pose = EnginePose::from_rotation(Rotation::from_rotation_x(angle));
-        (pose, SharedShape::cuboid(0.1, 0.2, 0.3))
-    };
-    let one = without_several_turned(vec![turned(0.0), turned(0.5)]);
+fn several_turned_forms_become_one_that_is_upright() {
+    let one = with_few_colliders(vec![turned(0.0), turned(0.5)]);
     assert!(one.iter().all(|(_, form)| form.as_cuboid().is_some()));
-    let aabbs = |forms: &[(EnginePose, SharedShape)]| -> Vec<[Vector; 2]> {
-        let of = |(pose, form): &(EnginePose, SharedShape)| form.compute_aabb(pose);
-        let all = forms.iter().map(of);
-        all.map(|aabb| [aabb.mins, aabb.maxs]).collect()
-    };
     let before = vec![turned(0.3), turned(0.5)];
-    let after = without_several_turned(before.clone());
-    assert!(after.iter().all(|(pose, _)| *pose == EnginePose::IDENTITY));
-    for (a, b) in aabbs(&before).into_iter().zip(aabbs(&after)) {
-        assert!((0..2).all(|end| (a[end] - b[end]).length() < 1e-9));
-    }
-    assert_eq!(after.len(), 2);
+    let after = with_few_colliders(before.clone());
+    assert!(matches!(&after[..], [(pose, _)] if *pose == EnginePose::IDENTITY));
+    let [a, b] = [&before, &after].map(|forms| whole(forms));
+    assert!((a.0 - b.0).length() < 1e-9 && (a.1 - b.1).length() < 1e-9);
+    assert!((a.2 - b.2).abs() < 1e-9);
+}
+
+#[test]
+fn many_forms_are_one_collider_beside_surfaces() {
+    let upright = |x: f64| {
+        let form = SharedShape::cuboid(0.1, 0.1, 0.1);
+        (EnginePose::from_translation(Vector::new(x, 0.0, 0.0)), form)
+    };
+    let few: Vec<_> = (0..8).map(|i| upright(f64::from(i))).collect();
+    assert_eq!(with_few_colliders(few.clone()).len(), 8);
+    let sheet = surface(&block([0.2, 0.4, 0.0])).expect("it has triangles");
+    let many = [few, vec![(EnginePose::IDENTITY, sheet), upright(8.0)]].concat();
+    let joined = with_few_colliders(many.clone());
+    assert_eq!(joined.len(), 2);
+    let group = joined[0].1.as_compound().expect("the convex ones are one");
+    assert_eq!(group.shapes().len(), 9);
+    let [a, b] = [&many, &joined].map(|forms| whole(forms));
+    assert!((a.0 - b.0).length() < 1e-9 && (a.1 - b.1).length() < 1e-9);
 }
