@@ -21,6 +21,9 @@ const MAX_SINKING: f64 = 1e-3;
 /// Height up to which what stands out of the plane on which a body lies is no step, metres.
 const MAX_STEP: f64 = 2e-4;
 
+/// How exactly points are on the surfaces, metres.
+const TOLERANCE: f64 = 1e-6;
+
 /// Removes the points of bodies with what does not reach above a plane on which they lie.
 pub(super) fn remove_seams(points: &mut Vec<Point>, colliders: &ColliderSet) {
     let Some(first) = points.first() else { return };
@@ -45,9 +48,18 @@ fn is_below(points: &[Point], point: &Point, side: usize, colliders: &ColliderSe
     };
     supports(points, point, side).any(|(support, up)| {
         let plane = plane(support, up);
-        reach(1 - side, up).is_some_and(|top| top < plane + MAX_STEP)
+        is_level(point, side, plane, up)
+            && reach(1 - side, up).is_some_and(|top| top < plane + MAX_STEP)
             && reach(side, -up).is_some_and(|depth| -depth > plane - MAX_SINKING)
     })
+}
+
+/// Whether the surfaces at a point are where they are if what is at the other side lies below a plane: parts reach at least as far as their points, which need no
+/// search for how far they reach.
+fn is_level(point: &Point, side: usize, plane: f64, up: Vector) -> bool {
+    let middle = point.place().dot(up);
+    let half = upward(point, side).dot(up) * point.contact.distance / 2.0;
+    middle - half < plane + MAX_STEP + TOLERANCE && middle + half > plane - MAX_SINKING - TOLERANCE
 }
 
 /// What the body at one side of a point lies on otherwise, and in which direction that pushes.

@@ -12,6 +12,7 @@ mod ghosts;
 mod linked;
 mod linked_shape;
 mod loose;
+mod needed_points;
 mod normals;
 pub(super) mod points;
 mod reach;

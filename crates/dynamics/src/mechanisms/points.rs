@@ -9,15 +9,11 @@ use rapier3d_f64::parry::query::{
 use rapier3d_f64::prelude::{Collider, ColliderHandle};
 
 use super::face_contacts::update_at_face;
+use super::needed_points::{remove_middles, spread};
 use super::normals::{move_back, way_out};
 use crate::contacts::{ColliderPair, ContactResponse, pair_of};
 use crate::convert::{from_vector, to_vector};
 use scene::Handle;
-
-/// Largest number of contact points of one surface that are solved.
-const MAX_GROUP_POINTS: usize = 4;
-/// Cosine of the largest angle between the normals of points of one surface.
-const MIN_NORMAL_COSINE: f64 = 0.99;
 
 pub(super) type Manifold = ContactManifold<(), [f64; 3]>;
 
@@ -82,6 +78,23 @@ impl Point {
             impulse: Vector::ZERO,
             normal,
         }
+    }
+
+    /// Of two surfaces that are level.
+    #[cfg(test)]
+    pub(super) fn on_floor(place: Vector, distance: f64) -> Self {
+        use rapier3d_f64::parry::shape::PackedFeatureId;
+
+        let nowhere = PackedFeatureId::UNKNOWN;
+        let found = TrackedContact::new(place, place, nowhere, nowhere, distance);
+        let colliders = [ColliderHandle::invalid(); 2];
+        Self::new(
+            colliders,
+            (0, 0),
+            &Manifold::new(),
+            &found,
+            (place, Vector::Z),
+        )
     }
 
     pub(crate) fn place(&self) -> Vector {
@@ -166,6 +179,7 @@ impl Pair {
             // parry's normal points from the first to the second.
             let normal = -(a.rotation * manifold.local_n1);
             let near = manifold.points.iter().enumerate();
+            let start = points.len();
             for (index, found) in near.filter(|(_, found)| found.dist < reach) {
                 let place = (a * found.local_p1 + b * found.local_p2) * 0.5;
                 let index = (number, index);
@@ -177,8 +191,9 @@ impl Pair {
                     (place, normal),
                 ));
             }
+            remove_middles(&mut points, start);
         }
-        reduced(points)
+        spread(points)
     }
 
     /// Keeps the impulse of a point for the next sub-step.
@@ -186,52 +201,6 @@ impl Pair {
         let (manifold, index) = point.index;
         self.manifolds[manifold].points[index].data = from_vector(point.impulse);
     }
-}
-
-/// At most four points of each surface: the deepest, and those that span the largest area with it.
-fn reduced(points: Vec<Point>) -> Vec<Point> {
-    if points.len() <= MAX_GROUP_POINTS {
-        return points;
-    }
-    let mut groups: Vec<Vec<Point>> = Vec::new();
-    for point in points {
-        let group = groups
-            .iter_mut()
-            .find(|group| group[0].normal.dot(point.normal) > MIN_NORMAL_COSINE);
-        match group {
-            Some(group) => group.push(point),
-            None => groups.push(vec![point]),
-        }
-    }
-    groups.into_iter().flat_map(corners).collect()
-}
-
-fn corners(group: Vec<Point>) -> Vec<Point> {
-    if group.len() <= MAX_GROUP_POINTS {
-        return group;
-    }
-    let at = |index: usize| group[index].place();
-    let best = |score: &dyn Fn(usize) -> f64| {
-        (0..group.len()).fold(0, |best, index| {
-            if score(index) > score(best) {
-                index
-            } else {
-                best
-            }
-        })
-    };
-    let deepest = best(&|index| -group[index].contact.distance);
-    let farthest = best(&|index| (at(index) - at(deepest)).length());
-    let across = (at(farthest) - at(deepest)).cross(group[0].normal);
-    let left = best(&|index| (at(index) - at(deepest)).dot(across));
-    let right = best(&|index| (at(deepest) - at(index)).dot(across));
-    let chosen = [deepest, farthest, left, right];
-    group
-        .into_iter()
-        .enumerate()
-        .filter(|(index, _)| chosen.contains(index))
-        .map(|(_, point)| point)
-        .collect()
 }
 
 #[cfg(test)]
@@ -263,6 +232,32 @@ mod tests {
                 points.iter().all(|point| point.normal.z < -0.999),
                 "{level}"
             );
+        }
+    }
+
+    fn points_on_floor(form: ColliderBuilder) -> Vec<Point> {
+        let lying = Rotation::from_rotation_z(std::f64::consts::FRAC_PI_2 + 0.3);
+        let mut pose = EnginePose::from_rotation(lying);
+        pose.translation = Vector::new(0.02, 0.01, 0.1);
+        let lying = form.position(pose).build();
+        let floor = ColliderBuilder::cuboid(1.0, 1.0, 0.05)
+            .translation(Vector::new(0.0, 0.0, -0.05))
+            .build();
+        let mut pair = Pair::default();
+        assert!(pair.update(&floor, &lying, 0.01));
+        pair.points([ColliderHandle::invalid(); 2], &floor, &lying, 0.01)
+    }
+
+    #[test]
+    fn what_lies_along_a_line_touches_at_its_ends() {
+        for form in [
+            ColliderBuilder::cylinder(0.3, 0.1),
+            ColliderBuilder::capsule_y(0.3, 0.1),
+        ] {
+            let points = points_on_floor(form);
+            assert_eq!(points.len(), 2);
+            let apart = (points[0].place() - points[1].place()).length();
+            assert!((apart - 0.6).abs() < 1e-6, "{apart}");
         }
     }
 
