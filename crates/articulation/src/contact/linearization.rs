@@ -1,7 +1,7 @@
 //! Contacts as dampers: the impulse of a contact near a velocity of its bodies.
 //!
 //! A contact that is barely compliant exerts an impulse that is a function of the velocities at the end of the step. With the impulses `p` that a step without
-//! slip would need, `p = warm + (target - v) / R` along the tangents and `(target - v) / R` along the normal, it is open where `p` pulls, holds where `p` lies
+//! slip would need, `p = warm + (target - v) / T` along the tangents and `(target - v) / R` along the normal, it is open where `p` pulls, holds where `p` lies
 //! within friction, and slides in the direction of `p` elsewhere (compare A. Castro, F. Permenter and X. Han, *An unconstrained convex formulation of
 //! compliant contact*, 2022). `warm` is the impulse of the step before: what rests does not creep by the compliance. For a given limit of friction the
 //! impulse is minus the gradient of a convex function; that the limit belongs to the normal impulse is left to the solver.
@@ -47,7 +47,11 @@ impl Row {
         }
         let stiffness = 1.0 / self.least_compliance;
         let holds = across(&warm).norm() < self.friction_limit * HOLDING;
-        let along_tangents = if holds { stiffness } else { 0.0 };
+        let along_tangents = if holds {
+            1.0 / self.friction_compliance()
+        } else {
+            0.0
+        };
         Linearization {
             offset: across(&warm),
             slope: Matrix3::from_diagonal(&Vector3::new(stiffness, along_tangents, along_tangents)),
@@ -72,7 +76,7 @@ impl Row {
     pub(super) fn exerted(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
         let lag = self.target - velocity;
         let (normal, ..) = self.normal_impulse(lag[0]);
-        let needed = across(&self.warm) + across(&lag) / self.least_compliance;
+        let needed = across(&self.warm) + across(&lag) / self.friction_compliance();
         let length = needed.norm();
         let share = if length > self.friction_limit {
             self.friction_limit / length
@@ -87,7 +91,7 @@ impl Row {
         if self.friction_limit == 0.0 {
             return (Vector3::zeros(), Linearization::open());
         }
-        let stiffness = 1.0 / self.least_compliance;
+        let stiffness = 1.0 / self.friction_compliance();
         let warm = across(&self.warm);
         let needed = warm + lag * stiffness;
         let length = needed.norm();

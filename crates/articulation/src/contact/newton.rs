@@ -6,7 +6,7 @@
 //! impulses until they agree (J. Haslinger, *Approximation of the Signorini problem with friction, obeying the Coulomb law*, 1983). All begins with what the contacts
 //! did in the step before.
 
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 
 use crate::contact::Row;
 use crate::contact::friction_limits::FrictionLimits;
@@ -20,9 +20,13 @@ const TOLERANCE: f64 = 1e-7;
 /// converge slowly where friction decides whether something jams.
 const MAX_EXACT_ITERATIONS: usize = 20;
 const LATE_TOLERANCE: f64 = 1e-4;
+/// The limits of friction follow as soon as no impulse differs by more than this part of what the limits differed by the last time, at first of `FIRST_LIMIT_CHANGE`:
+/// what is more exact than the limits is found in vain.
+const INNER_PART: f64 = 0.1;
+const FIRST_LIMIT_CHANGE: f64 = 0.1;
 
 impl Mechanism {
-    /// Finds the impulses of joints and contacts; false, and contacts as they were, where they must be found by sweeps.
+    /// Finds the impulses of joints and contacts; false where they must be found by sweeps, which go on from what was found.
     pub(crate) fn solve_by_newton(&mut self) -> bool {
         if self.contacts.are_swept {
             return false;
@@ -34,7 +38,7 @@ impl Mechanism {
         }
         self.contacts.are_swept = true;
         for row in &mut self.contacts.rows {
-            row.impulse = row.warm;
+            row.impulse = row.permitted();
         }
         self.remove_contact_inertia();
         self.apply_contact_impulses();
@@ -44,17 +48,21 @@ impl Mechanism {
     fn find_minimum(&mut self) -> bool {
         let mut before: Vec<Vector6<f64>> = Vec::new();
         let mut limits = FrictionLimits::default();
+        let mut limit_change = FIRST_LIMIT_CHANGE;
         for iteration in 0..MAX_ITERATIONS {
             if !self.solve_linear() {
                 return false;
             }
             let is_whole = before.is_empty() || self.shorten_step(&before);
-            if self.linearize() <= TOLERANCE && is_whole {
+            let error = self.linearize();
+            if is_whole && error <= TOLERANCE.max(INNER_PART * limit_change) {
                 limits.update(&mut self.contacts.rows);
+                let change = self.linearize();
                 let is_late = iteration > MAX_EXACT_ITERATIONS;
-                if self.linearize() <= if is_late { LATE_TOLERANCE } else { TOLERANCE } {
+                if error.max(change) <= if is_late { LATE_TOLERANCE } else { TOLERANCE } {
                     return true;
                 }
+                limit_change = change.min(FIRST_LIMIT_CHANGE);
                 limits.extrapolate(&mut self.contacts.rows);
                 self.linearize();
             }
@@ -79,6 +87,16 @@ impl Mechanism {
 }
 
 impl Row {
+    /// The impulse that was found last, within what the contact can exert.
+    fn permitted(&self) -> Vector3<f64> {
+        if !self.impulse.iter().all(|x| x.is_finite()) {
+            return self.warm;
+        }
+        let normal = self.impulse[0].max(0.0);
+        let (first, second) = self.within_cone(normal, self.impulse[1], self.impulse[2]);
+        Vector3::new(normal, first, second)
+    }
+
     /// Whether one of the bodies can be moved.
     pub(super) fn acts(&self) -> bool {
         self.least_compliance > 0.0
@@ -88,7 +106,7 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use geometry::Pose;
-    use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+    use nalgebra::{Matrix3, UnitQuaternion};
     use test_support::random::Random;
 
     use super::*;
@@ -325,6 +343,22 @@ mod tests {
         } else if slip.norm() > 1e-5 {
             let along = row.impulse.fixed_rows::<2>(1).dot(&slip);
             assert!(along < -0.9999 * friction * slip.norm(), "{case}: {along}");
+        }
+    }
+
+    #[test]
+    fn sweeps_begin_with_what_contacts_can_exert() {
+        let mut mechanism = wheels([0.0, 0.0], 0.5);
+        let row = &mut mechanism.contacts.rows[0];
+        for (found, permitted) in [
+            ([2.0, 3.0, 4.0], [2.0, 0.6, 0.8]),
+            ([2.0, 0.3, -0.4], [2.0, 0.3, -0.4]),
+            ([-1.0, 3.0, 4.0], [0.0; 3]),
+            ([f64::NAN, 3.0, 4.0], [0.5, 0.1, 0.2]),
+        ] {
+            row.warm = Vector3::new(0.5, 0.1, 0.2);
+            row.impulse = found.into();
+            assert!((row.permitted() - Vector3::from(permitted)).norm() < 1e-12);
         }
     }
 

@@ -15,6 +15,9 @@ const RESTITUTION_THRESHOLD: f64 = 0.05;
 /// Compliance of a contact as a part of the response of its bodies without joints: shares the load between points where it is not determined,
 /// and bounds it where joints do not let bodies escape that overlap.
 const COMPLIANCE: f64 = 5e-6;
+/// The compliance of friction beside that: Newton's method needs fewer iterations where rolling and sliding bodies hang together. What rests does not creep by it,
+/// since friction begins with the impulse of the step before.
+const FRICTION_SOFTNESS: f64 = 5.0;
 /// A contact of a mechanism gives way to larger forces, N, as even hard bodies do: else what turns a motor of any strength would be wedged in for ever.
 const MAX_RIGID_FORCE: f64 = 2000.0;
 /// Stiffness beyond it, N/m.
@@ -197,6 +200,11 @@ impl Row {
         let beyond = (rigid - self.rigid_impulse).max(0.0);
         rigid
             - beyond * self.yield_compliance / (response + self.compliance + self.yield_compliance)
+    }
+
+    /// Tangential velocity per impulse of friction that holds.
+    pub(super) fn friction_compliance(&self) -> f64 {
+        self.least_compliance * FRICTION_SOFTNESS
     }
 
     /// Whether the bodies leave each other by restitution.

@@ -8,7 +8,7 @@ use crate::jacobian::InverseMass;
 /// Largest number of sweeps over all contacts.
 const MAX_SWEEPS: usize = 200;
 /// The solver has converged when no impulse changes by more than this fraction of the largest one.
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 1e-5;
 
 impl Contacts {
     /// Sweeps over the contacts until no impulse changes any more; whether one did.
