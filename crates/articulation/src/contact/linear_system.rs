@@ -15,13 +15,15 @@ use crate::spatial_inertia::SpatialInertia;
 const MAX_COUPLING_CONTACTS: usize = 48;
 
 impl Mechanism {
-    /// Finds the velocities; false where there is no solution.
-    pub(super) fn solve_linear(&mut self) -> bool {
+    /// Finds the velocities; false where there is no solution. `is_first`: for these joints and places of the bodies.
+    pub(super) fn solve_linear(&mut self, is_first: bool) -> bool {
         if self.joints.is_empty() {
             return self.solve_free_bodies();
         }
         self.add_contact_inertia();
-        if !self.system.factorize(&self.joints, &self.bodies) {
+        // Only trees have contacts in their factor.
+        let is_known = !is_first && self.system.as_tree().is_none();
+        if !is_known && !self.system.factorize(&self.joints, &self.bodies) {
             return false;
         }
         self.find_velocities();

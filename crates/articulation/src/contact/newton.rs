@@ -50,7 +50,7 @@ impl Mechanism {
         let mut limits = FrictionLimits::default();
         let mut limit_change = FIRST_LIMIT_CHANGE;
         for iteration in 0..MAX_ITERATIONS {
-            if !self.solve_linear() {
+            if !self.solve_linear(iteration == 0) {
                 return false;
             }
             let is_whole = before.is_empty() || self.shorten_step(&before);
