@@ -7,7 +7,6 @@ from typing import Any
 from ._modules import Requires
 
 __version__: str
-__file__: str
 
 class Error(Exception):
     """An error of the simulator, in the words that scripts receive."""
