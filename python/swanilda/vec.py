@@ -171,7 +171,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self._arrays = {name: numpy.asarray(self._vector.array(name)) for name in _ARRAYS}
         self._images = [numpy.asarray(self._vector.array("images", at)) for at in range(len(views))]
         self._cameras, self._infos = list(cameras), self._parts(infos, self._vector.infos)
-        self._over = numpy.zeros(num_envs, bool)
+        self._over: NDArray[numpy.bool_] = numpy.zeros(num_envs, bool)
         self.single_action_space = box(actions, [1] * len(actions), numpy.float32)
         self.single_observation_space = self._space(box(observations, self._vector.observations, numpy.float64))
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -207,7 +207,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise ValueError(f"{len(seeds)} seeds for {self.num_envs} worlds")
         mask = (options or {}).get("reset_mask")
         which = range(self.num_envs) if mask is None else numpy.flatnonzero(mask).tolist()
-        failures = self._vector.begin([(world, None if seeds[world] is None else seeds[world] % 2**32) for world in which])
+        chosen = ((world, seeds[world]) for world in which)
+        failures = self._vector.begin([(world, None if each is None else int(each) % 2**32) for world, each in chosen])
         self._over[list(which)] = False
         self._end_failed(failures, numpy.zeros(self.num_envs, bool))
         return self._observe(), self._info()
