@@ -303,13 +303,13 @@ impl Vector {
 
     /// Begins an episode in worlds, with a seed where there is one; the worlds that failed, and why.
     fn begin(&self, py: Python<'_>, worlds: Vec<(usize, Option<u32>)>) -> Vec<(usize, String)> {
-        py.detach(|| told(self.locked().begin(&worlds)))
+        py.detach(|| pairs(self.locked().begin(&worlds)))
     }
 
     /// Steps all worlds; those that failed, and why.
     fn step(&self, py: Python<'_>) -> PyResult<Vec<(usize, String)>> {
         let stepped = py.detach(|| self.locked().step());
-        stepped.map(told).map_err(|(world, place)| {
+        stepped.map(pairs).map_err(|(world, place)| {
             PyValueError::new_err(format!(
                 "action {place} of world {world} is no finite number; nothing was stepped"
             ))
@@ -323,7 +323,7 @@ impl Vector {
                 "there is no camera {camera}."
             )));
         }
-        Ok(py.detach(|| told(self.locked().draw(camera))))
+        Ok(py.detach(|| pairs(self.locked().draw(camera))))
     }
 }
 
@@ -333,7 +333,7 @@ impl Vector {
     }
 }
 
-fn told(failures: Vec<Failure>) -> Vec<(usize, String)> {
+fn pairs(failures: Vec<Failure>) -> Vec<(usize, String)> {
     let pair = |failure: Failure| (failure.world, failure.reason);
     failures.into_iter().map(pair).collect()
 }

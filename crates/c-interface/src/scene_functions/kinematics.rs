@@ -112,7 +112,7 @@ fn begin(call: &Call<'_>, function: &str, limits: usize, targets: usize) -> Answ
     call.frame.host().call(function, &args)
 }
 
-/// How many further limits a flag tells of.
+/// How many further limits follow a flag.
 fn minima(call: &Call<'_>, flag: i64) -> usize {
     let flags = call.integer_at(2);
     // -1 are the usual flags.

@@ -114,7 +114,7 @@ fn has_volume(mesh: &Mesh) -> bool {
         .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }
 
-/// The same forms, but the convex ones as one where several are turned, or where there are many: rapier looks at each pair of colliders in each sub-step, and two
+/// The same forms, but the convex ones as one where several are turned, or where there are many: rapier tests each pair of colliders in each sub-step, and two
 /// neighbours of a robot whose links have fifty parts each are 2500 pairs. A collider that is turned cannot be without mass to the last digit either (see
 /// [`carrier`](super::mass::carrier)).
 pub(super) fn with_few_colliders(

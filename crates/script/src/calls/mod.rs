@@ -33,7 +33,7 @@ impl Sim {
             .map_err(|_| ApiError::ErrorInCallee)
     }
 
-    /// The same; the callee's own error is told.
+    /// The same; the callee's own error is returned.
     ///
     /// # Errors
     /// In CoppeliaSim's words, or the message of the callee's error.
