@@ -94,8 +94,8 @@ fn programs_for_vrep_find_what_they_call() {
 
 #[test]
 fn calls_with_nothing_are_errors_and_no_crashes() {
-    run_program("nothing.py");
-    run_program_on("nothing.py", &written("4.10"));
+    run_program("null_arguments.py");
+    run_program_on("null_arguments.py", &written("4.10"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 """Every function of a library with NULL for each address, and with handles and numbers that mean nothing: the process lives, a call that
 fails says which function it was, and one that works in spite of it is known here.
 
-Usage: nothing.py TABLE FOLDER, where TABLE lies beside the tables of symbols; FOLDER is for files.
+Usage: null_arguments.py TABLE FOLDER, where TABLE lies beside the tables of symbols; FOLDER is for files.
 """
 
 import ctypes
