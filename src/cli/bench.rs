@@ -1,7 +1,7 @@
 //! `swanilda bench`: how fast a scene is, alone and as many worlds.
 
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -158,7 +158,7 @@ impl Args {
         worlds: usize,
         threads: usize,
     ) -> Result<Measured, Failure> {
-        let mut vector = Vector::new(self.declaration(&self.scene, options), worlds, threads)?;
+        let mut vector = Vector::new(self.declaration(options), worlds, threads)?;
         let all: Vec<(usize, Option<u32>)> = (0..worlds).map(|world| (world, None)).collect();
         fail(vector.begin(&all))?;
         let (began, mut steps) = (now(), 0);
@@ -179,7 +179,7 @@ impl Args {
         })
     }
 
-    fn declaration(&self, scene: &Path, options: Options) -> Declaration {
+    fn declaration(&self, options: Options) -> Declaration {
         let options = Options {
             render_threads: NonZero::new(1),
             ..options
@@ -188,7 +188,7 @@ impl Args {
             kind: self.kind.into(),
             time_step: self.dt,
             max_steps: self.steps,
-            ..Declaration::new(scene.to_owned(), options)
+            ..Declaration::new(self.scene.clone(), options)
         }
     }
 }

@@ -17,7 +17,7 @@ const LAUNCHER: &str = r#"#!/bin/sh
 exec "$(dirname "$(readlink -f "$0")")/swanilda" coppeliasim "$@"
 "#;
 
-/// What CoppeliaSim's Python package looks for in the folder of Python files: the types in the first lines of functions' descriptions.
+/// What CoppeliaSim's Python package imports from the folder of Python files: the types in the first lines of functions' descriptions.
 const CALLTIP: &str = include_str!("calltip.py");
 
 /// The versions of CoppeliaSim whose library programs load.

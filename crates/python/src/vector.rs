@@ -261,31 +261,23 @@ impl Vector {
     /// The numbers of all worlds by name, for `numpy.asarray`; pictures by their place.
     #[pyo3(signature = (name, image=0))]
     fn array(&self, name: &str, image: usize) -> PyResult<Array> {
-        let arrays = &self.arrays;
+        let (arrays, count) = (&self.arrays, self.count);
+        let numbers =
+            |array: &vector::Array<f64>| (array.address(), vec![count, array.width()], "<f8");
+        let flags = |array: &vector::Array<u8>| (array.address(), vec![count], "|b1");
         let (address, shape, kind) = match name {
-            "actions" => (
-                arrays.actions.address(),
-                vec![self.count, arrays.actions.width()],
-                "<f8",
-            ),
-            "observations" => {
-                let array = &arrays.observations;
-                (array.address(), vec![self.count, array.width()], "<f8")
-            }
-            "infos" => (
-                arrays.infos.address(),
-                vec![self.count, arrays.infos.width()],
-                "<f8",
-            ),
-            "rewards" => (arrays.rewards.address(), vec![self.count], "<f8"),
-            "terminated" => (arrays.terminated.address(), vec![self.count], "|b1"),
-            "truncated" => (arrays.truncated.address(), vec![self.count], "|b1"),
-            "resets" => (arrays.resets.address(), vec![self.count], "|b1"),
-            "failed" => (arrays.failed.address(), vec![self.count], "|b1"),
+            "actions" => numbers(&arrays.actions),
+            "observations" => numbers(&arrays.observations),
+            "infos" => numbers(&arrays.infos),
+            "rewards" => (arrays.rewards.address(), vec![count], "<f8"),
+            "terminated" => flags(&arrays.terminated),
+            "truncated" => flags(&arrays.truncated),
+            "resets" => flags(&arrays.resets),
+            "failed" => flags(&arrays.failed),
             "images" if image < arrays.images.len() => {
                 let [width, height] = self.layout.images[image].map(scene::numbers::place);
                 let address = arrays.images[image].address();
-                (address, vec![self.count, height, width, 3], "|u1")
+                (address, vec![count, height, width, 3], "|u1")
             }
             _ => {
                 return Err(PyValueError::new_err(format!(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::arrays::{Array, Arrays};
+use crate::arrays::{Array, Arrays, Item};
 use crate::declaration::Declaration;
 use crate::worker::{Command, Failure, Worker};
 use crate::world::Layout;
@@ -80,8 +80,8 @@ impl Vector {
             if self.arrays.resets.get(world) != 0 {
                 continue;
             }
-            let actions = self.arrays.actions.read(world);
-            if let Some(place) = actions.iter().position(|action| !action.is_finite()) {
+            let mut actions = self.arrays.actions.row(world).iter().map(f64::get);
+            if let Some(place) = actions.position(|action| !action.is_finite()) {
                 return Err((world, place));
             }
         }
@@ -95,7 +95,7 @@ impl Vector {
 
     fn run(&self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {
         for worker in &self.workers {
-            worker.begin(command(Arc::clone(&self.arrays)));
+            worker.send(command(Arc::clone(&self.arrays)));
         }
         self.workers.iter().flat_map(Worker::wait).collect()
     }

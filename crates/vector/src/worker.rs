@@ -92,7 +92,8 @@ impl Worker {
         made.unwrap_or_else(|_| Err(self.has_ended()))
     }
 
-    pub(crate) fn begin(&self, command: Command) {
+    /// Says what is to be done; [`wait`](Self::wait) follows.
+    pub(crate) fn send(&self, command: Command) {
         if let Some(commands) = &self.commands {
             // A thread that has ended says so where its answer is awaited.
             let _ = commands.send(command);
@@ -155,8 +156,10 @@ fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
             }
         }
         Command::Begin(arrays, which) => {
+            let first = worlds.first().map_or(0, |(number, _)| *number);
             for (number, seed) in which.iter() {
-                let Some((_, world)) = worlds.iter_mut().find(|(own, _)| own == number) else {
+                let own = number.checked_sub(first);
+                let Some((_, world)) = own.and_then(|own| worlds.get_mut(own)) else {
                     continue;
                 };
                 if let Some(seed) = seed {

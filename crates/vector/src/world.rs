@@ -222,7 +222,8 @@ impl World {
 
     fn act_and_observe(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
         let errors = self.simulator.errors();
-        self.delayed.push_back(arrays.actions.read(number));
+        let given = arrays.actions.read(number);
+        self.delayed.push_back(given.clone());
         let acts = self.delayed.pop_front().unwrap_or_default();
         self.actions
             .write(&mut self.simulator, &self.expressions, &acts)?;
@@ -230,7 +231,7 @@ impl World {
         self.errors.check(&self.simulator, errors)?;
         self.steps += 1;
         let observed = self.observe(number, arrays)?;
-        let (reward, terminated) = self.score(&observed, &arrays.actions.read(number))?;
+        let (reward, terminated) = self.score(observed, given)?;
         let is_over = terminated || !self.simulator.state().is_advancing();
         arrays.rewards.set(number, reward);
         arrays.terminated.set(number, is_over.into());
@@ -274,11 +275,11 @@ impl World {
         Ok(())
     }
 
-    fn score(&mut self, observed: &[f64], actions: &[f64]) -> Result<(f64, bool), String> {
+    fn score(&mut self, observed: Vec<f64>, actions: Vec<f64>) -> Result<(f64, bool), String> {
         let Some(score) = &self.score else {
             return Ok((0.0, false));
         };
-        let args = [Data::from(observed.to_vec()), Data::from(actions.to_vec())];
+        let args = [Data::from(observed), Data::from(actions)];
         let mut run = |number: Option<i64>| {
             number
                 .map(|number| self.expressions.run(&mut self.simulator, number, &args))

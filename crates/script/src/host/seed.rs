@@ -19,7 +19,9 @@ impl Sim {
             if let Some(runtime) = &*script.runtime.borrow() {
                 runtime.env.random.borrow_mut().restart(seed);
                 let seeded = runtime.interpreter.seed_random(seed);
-                result = std::mem::replace(&mut result, Ok(())).and(seeded);
+                if result.is_ok() {
+                    result = seeded;
+                }
             }
         });
         result
