@@ -10,11 +10,12 @@ use std::net::Shutdown;
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::Builder;
 use std::time::Duration;
 
+use heap::{Outer, brought_in, outside};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 use rustix::net::{RecvFlags, recv};
@@ -54,7 +55,7 @@ pub struct PeerProcess {
     socket: UnixStream,
     lifeline: Option<UnixStream>,
     child: Child,
-    output: Arc<Mutex<Output>>,
+    output: Outer<Arc<Mutex<Output>>>,
     /// What was received and is no whole frame yet, or belongs to later frames.
     received: Vec<u8>,
     part: Vec<u8>,
@@ -95,16 +96,13 @@ impl PeerProcess {
             command.current_dir(folder);
         }
         let mut child = command.spawn()?;
-        let output = Arc::<Mutex<Output>>::default();
-        if let Some(pipe) = child.stderr.take() {
-            let output = Arc::clone(&output);
-            Builder::new().spawn(move || collect(pipe, &output))?;
-        }
+        let pipe = child.stderr.take();
+        let output = outside(|| collected(pipe))?;
         Ok(Self {
             socket,
             lifeline: Some(lifeline),
             child,
-            output,
+            output: Outer::new(output),
             received: Vec::new(),
             part: vec![0; 1 << 16],
         })
@@ -192,11 +190,13 @@ impl PeerProcess {
 
     /// What the program wrote beside its frames since the last time, and how many bytes of that were lost since they were too many.
     pub fn take_output(&self) -> (Vec<u8>, usize) {
-        let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
-        (
-            std::mem::take(&mut output.bytes).into(),
-            std::mem::take(&mut output.lost),
-        )
+        brought_in(|| {
+            let mut output = locked(self.output.get());
+            (
+                std::mem::take(&mut output.bytes).into(),
+                std::mem::take(&mut output.lost),
+            )
+        })
     }
 
     /// The same of a program that has ended, whose last words are on their way.
@@ -205,12 +205,7 @@ impl PeerProcess {
         reason = "they come in a moment, which nothing depends on"
     )]
     pub fn last_output(&self) -> Vec<u8> {
-        let is_complete = || {
-            self.output
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .is_complete
-        };
+        let is_complete = || locked(self.output.get()).is_complete;
         let mut left = GUARDIAN_LIMIT;
         while !left.is_zero() && !is_complete() {
             std::thread::sleep(PAUSE);
@@ -257,20 +252,30 @@ impl Drop for PeerProcess {
     }
 }
 
+/// What a thread collects from `pipe`. It may outlive the simulator: another program may hold the pipe open.
+fn collected(pipe: Option<ChildStderr>) -> io::Result<Arc<Mutex<Output>>> {
+    let output = Arc::<Mutex<Output>>::default();
+    if let Some(pipe) = pipe {
+        let output = Arc::clone(&output);
+        Builder::new().spawn(move || collect(pipe, &output))?;
+    }
+    Ok(output)
+}
+
+/// Whole even if a thread that held it panicked: bytes are only added or taken.
+fn locked(output: &Mutex<Output>) -> MutexGuard<'_, Output> {
+    output.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Reads to the end; what nobody takes in time is lost.
 fn collect(mut pipe: impl Read, output: &Mutex<Output>) {
     let mut part = vec![0; 1 << 12];
     loop {
         match pipe.read(&mut part) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Ok(0) | Err(_) => {
-                return output
-                    .lock()
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .is_complete = true;
-            }
+            Ok(0) | Err(_) => return locked(output).is_complete = true,
             Ok(count) => {
-                let mut output = output.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut output = locked(output);
                 let kept = count.min(MAX_OUTPUT - output.bytes.len());
                 output.bytes.extend(&part[..kept]);
                 output.lost += count - kept;

@@ -7,6 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
 use heap::resource::Resource;
+use heap::{Outer, brought_in, outside};
+
 /// Maximum size of each of the two outputs of a program.
 pub(crate) const MAX_OUTPUT: usize = 256 << 20;
 
@@ -75,8 +77,13 @@ impl Program {
             child.0.stderr.take(),
         );
         if let Some(mut stdin) = stdin {
-            // A program that does not want its input is not at fault. Its end closes the pipe, which ends the thread.
-            Builder::new().spawn(move || drop(stdin.write_all(&input)))?;
+            outside(|| {
+                let input = input.clone();
+                // A program that does not want its input is not at fault. Its end closes the pipe, which ends the thread.
+                Builder::new()
+                    .spawn(move || drop(stdin.write_all(&input)))
+                    .map(drop)
+            })?;
         }
         Ok(Run {
             out: Collected::of(stdout)?,
@@ -93,8 +100,8 @@ impl Program {
     /// Starts it detached: it outlives the simulator.
     pub fn launch(&self) -> io::Result<()> {
         let mut child = self.command()?.stdin(Stdio::null()).spawn()?;
-        // A process that has ended must be reaped.
-        Builder::new().spawn(move || drop(child.wait())).map(drop)
+        // A process that has ended must be reaped; that may be after the end of the simulator.
+        outside(|| Builder::new().spawn(move || drop(child.wait())).map(drop))
     }
 }
 
@@ -173,32 +180,38 @@ impl Run {
     }
 }
 
-/// The bytes of one output, gathered by a thread.
+/// The bytes of one output, gathered by a thread, which may outlive the simulator: another program may hold the output open.
 struct Collected {
-    bytes: Arc<Mutex<Vec<u8>>>,
-    thread: Option<JoinHandle<()>>,
+    bytes: Outer<Arc<Mutex<Vec<u8>>>>,
+    thread: Option<Outer<JoinHandle<()>>>,
 }
 
 impl Collected {
     fn of(pipe: Option<impl Read + Send + 'static>) -> io::Result<Self> {
-        let bytes = Arc::new(Mutex::new(Vec::new()));
-        let theirs = Arc::clone(&bytes);
-        let thread = pipe
-            .map(|pipe| Builder::new().spawn(move || collect(pipe, &theirs)))
-            .transpose()?;
-        Ok(Self { bytes, thread })
+        outside(|| {
+            let bytes = Arc::new(Mutex::new(Vec::new()));
+            let theirs = Arc::clone(&bytes);
+            let thread = pipe
+                .map(|pipe| Builder::new().spawn(move || collect(pipe, &theirs)))
+                .transpose()?;
+            Ok(Self {
+                bytes: Outer::new(bytes),
+                thread: thread.map(Outer::new),
+            })
+        })
     }
 
     fn is_complete(&self) -> bool {
-        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+        let is_finished = |thread: &Outer<JoinHandle<()>>| thread.with(JoinHandle::is_finished);
+        self.thread.as_ref().is_none_or(is_finished)
     }
 
     fn is_too_much(&self) -> bool {
-        lock(&self.bytes).len() > MAX_OUTPUT
+        lock(self.bytes.get()).len() > MAX_OUTPUT
     }
 
     fn take(&self) -> Vec<u8> {
-        std::mem::take(&mut lock(&self.bytes))
+        brought_in(|| std::mem::take(&mut *lock(self.bytes.get())))
     }
 }
 

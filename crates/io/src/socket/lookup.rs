@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 
 use dns_lookup::{AddrFamily, AddrInfoHints, LookupError, LookupErrorKind, SockType};
+use heap::brought_in;
 
 use super::failure::system_words;
 use super::wait::SLICE;
@@ -64,13 +65,16 @@ impl Lookup<'_> {
 
     /// Queries the system. The answer is never empty.
     fn query(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
-        let (host, service, hints) = (host.to_owned(), service.to_owned(), self.hints());
-        let found = on_thread(self.stop, move || -> Result<Vec<_>, Failure> {
-            let service = (!service.is_empty()).then_some(service.as_str());
-            let found = dns_lookup::getaddrinfo(Some(&host), service, Some(hints))
-                .map_err(lookup_failure)?;
-            Ok(found.flatten().map(|entry| entry.sockaddr).collect())
-        })??;
+        let hints = self.hints();
+        let found = brought_in(|| {
+            let (host, service) = (host.to_owned(), service.to_owned());
+            on_thread(self.stop, move || -> Result<Vec<_>, Failure> {
+                let service = (!service.is_empty()).then_some(service.as_str());
+                let found = dns_lookup::getaddrinfo(Some(&host), service, Some(hints))
+                    .map_err(lookup_failure)?;
+                Ok(found.flatten().map(|entry| entry.sockaddr).collect())
+            })?
+        })?;
         if found.is_empty() {
             Err(unknown_name())
         } else {
@@ -110,9 +114,11 @@ pub fn numeric(host: &str, service: &str, family: Family) -> Result<SocketAddr, 
 
 /// The name of an address; its digits when it has none.
 pub fn name_of(address: SocketAddr, stop: &AtomicBool) -> Result<(String, String), Failure> {
-    on_thread(stop, move || {
-        dns_lookup::getnameinfo(&address, 0).map_err(lookup_failure)
-    })?
+    brought_in(|| {
+        on_thread(stop, move || {
+            dns_lookup::getnameinfo(&address, 0).map_err(lookup_failure)
+        })?
+    })
 }
 
 /// The name of this machine.
@@ -120,7 +126,7 @@ pub fn host_name() -> Result<String, Failure> {
     Ok(dns_lookup::get_hostname()?)
 }
 
-/// Runs `question` on a thread and waits for its answer.
+/// Runs `question` on a thread, which may outlive the simulator, and waits for its answer. Called outside of heaps.
 fn on_thread<T: Send + 'static>(
     stop: &AtomicBool,
     question: impl FnOnce() -> T + Send + 'static,
