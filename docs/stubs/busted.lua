@@ -45,6 +45,9 @@ function M.load(file, number) end
 --- a test to be written; inside of a test: ends it as pending
 function M.pending(name) end
 
+--- A test that runs for many cases: `options` says for how many.
+function M.property(name, options, body) end
+
 --- Runs a test with all that belongs to it. Returns status (passed, failed, error, pending) and what went wrong.
 function M.run(index) end
 

@@ -64,9 +64,9 @@ local function isWanted()
     count = count + 1
 end
 
-local function addTest(name, body, line, reason)
+local function addTest(name, body, line, reason, property)
     count = count + 1
-    tests[count] = { name = name, body = body, group = group, line = line or -1, pending = reason }
+    tests[count] = { name = name, body = body, group = group, line = line or -1, pending = reason, property = property }
 end
 
 local function describe(name, block)
@@ -98,6 +98,11 @@ local function it(name, body)
     local line = currentLine()
     if body == nil then return addTest(tostring(name), nil, line, 'not written yet') end
     addTest(tostring(name), body, line)
+end
+
+--- A test that runs for many cases: `options` says for how many.
+function M.property(name, options, body)
+    if isWanted() then addTest(tostring(name), body, currentLine(), nil, options) end
 end
 
 -- Between tests it announces one; within a test it ends it.
@@ -186,7 +191,7 @@ function M.collect(file)
     if failure then return { error = failure } end
     local list = {}
     for i, test in ipairs(tests) do
-        list[i] = { name = names(test.group, test.name), line = test.line, pending = test.pending }
+        list[i] = { name = names(test.group, test.name), line = test.line, pending = test.pending, property = test.property }
     end
     compiled.keep(chunk, linesOfTests(environment))
     return { tests = list, simulates = (package.loaded.sim or package.loaded['swanilda.test']) ~= nil }
@@ -305,11 +310,12 @@ function M.run(index)
     local chain = chainOf(test.group)
     final = {}
     local problem = moveTo(chain) or beforeEach(chain)
-    if not problem then problem = attempt({ test.body }) end
+    local fixture = package.loaded['swanilda.test']
+    local body = test.property and function() fixture._runProperty(test.body, M.explain) end or test.body
+    if not problem then problem = attempt({ body }) end
     problem = attempt(final, problem)
     problem = afterEach(chain, problem)
-    local fixture = package.loaded['swanilda.test']
-    if fixture then problem = attempt({ fixture._finish }, problem) end
+    if fixture then problem = attempt({ function() fixture._finish(problem ~= nil) end }, problem) end
     return outcome(problem)
 end
 

@@ -24,6 +24,7 @@ mod remote;
 mod render;
 mod replay;
 mod run;
+mod search;
 mod serve;
 mod session;
 mod standard_output;
@@ -66,6 +67,7 @@ enum Command {
     Serve(serve::Args),
     Debug(debug::Args),
     Test(test::Args),
+    Search(search::Args),
     Batch(batch::Args),
     Bench(bench::Args),
     Api(api::Args),
@@ -111,7 +113,7 @@ fn parse() -> Result<Cli, ExitCode> {
         standard_output::note(&error.print());
         let for_tests = std::env::args()
             .nth(1)
-            .is_some_and(|command| command == "test");
+            .is_some_and(|command| command == "test" || command == "search");
         ExitCode::from(if !error.use_stderr() {
             0
         } else if for_tests {
@@ -136,6 +138,7 @@ impl Command {
             Self::Serve(args) => serve::serve(&args),
             Self::Debug(args) => debug::debug(&args),
             Self::Test(args) => Ok(test::test(&args)),
+            Self::Search(args) => Ok(search::search(&args)),
             Self::Batch(args) => batch::batch(&args),
             Self::Bench(args) => bench::bench(&args),
             Self::Api(args) => api::api(&args),

@@ -14,6 +14,7 @@ mod python;
 mod remote_steps;
 mod scene_cli;
 mod scene_data;
+mod search;
 mod sockets;
 mod testing;
 mod view;

@@ -31,6 +31,7 @@ mod ros_options;
 mod sys_call;
 mod tape;
 pub mod test_bench;
+pub mod test_cases;
 pub mod wall_clock;
 
 // What a simulator is.

@@ -15,6 +15,7 @@ use super::coverage::LineCounts;
 use super::log::console::{Console, LogLine, OutputStream};
 use super::log::verbosity;
 use crate::options::Options;
+use crate::test_cases::TestCases;
 use scene::object::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.
@@ -65,6 +66,17 @@ pub struct Trace {
     pub columns: Vec<String>,
     /// Time, then a value for each column.
     pub rows: Vec<Vec<f64>>,
+}
+
+/// A temporal property over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Signal {
+    /// The property.
+    pub name: String,
+    /// Time in seconds, and how far the condition is from false then; infinite where it is a boolean.
+    pub samples: Vec<(f64, f64)>,
+    /// How far the property is from false.
+    pub robustness: f64,
 }
 
 /// Tolerances of the comparison with a recorded trace.
@@ -187,7 +199,10 @@ pub struct TestBench {
     pub run_apart: Option<RunApart>,
     /// The test's file, once a simulator has compiled it.
     pub compiled: RefCell<Option<CompiledFile>>,
+    /// The cases of the property that is tested.
+    pub cases: RefCell<Option<Rc<TestCases>>>,
     goldens: RefCell<Vec<Golden>>,
+    signals: RefCell<Vec<Signal>>,
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.
     unfinished: [RefCell<Vec<u8>>; 2],
@@ -245,6 +260,16 @@ impl TestBench {
         self.goldens.take()
     }
 
+    /// Leaves what was sampled of a temporal property.
+    pub fn add_signal(&self, signal: &Signal) {
+        outside(|| self.signals.borrow_mut().push(signal.clone()));
+    }
+
+    /// Hands over what was sampled of temporal properties.
+    pub fn take_signals(&self) -> Vec<Signal> {
+        self.signals.take()
+    }
+
     /// Lua code was stopped; the first time counts, since code that catches the error is stopped again.
     pub(crate) fn note_interruption(&self, trace: impl FnOnce() -> String) {
         let mut interruption = self.interruption.borrow_mut();
@@ -257,6 +282,25 @@ impl TestBench {
     /// Lua's traceback when it was stopped.
     pub fn take_interruption(&self) -> Option<String> {
         self.interruption.take()
+    }
+
+    /// Forgets the lines after the first `count`: those of a case that is undone.
+    pub fn truncate_lines(&self, count: usize) {
+        let mut lines = self.lines.borrow_mut();
+        lines.truncate(count);
+        let sizes = lines
+            .iter()
+            .map(|line| line.text.len() + size_of::<ConsoleLine>());
+        self.size.set(sizes.sum());
+        self.lost.set(0);
+        for text in &self.unfinished {
+            text.borrow_mut().clear();
+        }
+    }
+
+    /// How many lines there are.
+    pub fn line_count(&self) -> usize {
+        self.lines.borrow().len()
     }
 
     /// Hands the console over, with a last line that counts what did not fit.

@@ -6,10 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use capture::{Header, Tape};
+use script::test_cases::CaseSource;
+use search::Value;
 use tempfile::NamedTempFile;
 
 use super::Config;
 use super::case::{Outcome, TestCase};
+use super::property::plan_of;
 use super::session::Session;
 
 /// Where captures of failed tests go, and how this program was started.
@@ -24,6 +27,7 @@ pub struct Captures {
 /// Facts of a capture's header.
 const FILE: &str = "test file";
 const TESTS: &str = "tests";
+const CHOICES: &str = "choices";
 
 /// A simulator of tests, or the one of a run, that is being captured. What was captured is removed when this is dropped, unless something has
 /// failed.
@@ -36,7 +40,7 @@ pub(super) struct TestCapture {
 }
 
 impl TestCapture {
-    /// Of a simulator that will run those tests of a file.
+    /// Of a simulator that will run those tests of a file; of a property, the case with these choices.
     ///
     /// # Errors
     /// When there is no place for it.
@@ -44,10 +48,18 @@ impl TestCapture {
         captures: &Captures,
         file: &Path,
         tests: &[Arc<TestCase>],
+        choices: Option<&[Value]>,
     ) -> io::Result<Self> {
         let tests: Vec<String> = tests.iter().map(|test| numbers(test)).collect();
         let file = file.to_string_lossy().into_owned();
-        Self::of_facts(captures, [(FILE, file), (TESTS, tests.join(","))])
+        let facts = [(FILE, file), (TESTS, tests.join(","))];
+        match choices {
+            None => Self::of_facts(captures, facts),
+            Some(choices) => {
+                let [file, tests] = facts;
+                Self::of_facts(captures, [file, tests, (CHOICES, search::text_of(choices))])
+            }
+        }
     }
 
     /// Of the simulator that these facts are about.
@@ -77,7 +89,7 @@ impl TestCapture {
     /// Says in the outcome of a failed test where the capture will be.
     pub(super) fn note(&mut self, outcome: &mut Outcome) {
         if outcome.is_bad() {
-            let place = || self.folder.join(file_name(&outcome.test));
+            let place = || self.folder.join(outcome.test.file_stem() + ".swc");
             outcome.capture = Some(self.kept.get_or_insert_with(place).clone());
         }
     }
@@ -100,18 +112,6 @@ fn numbers(test: &TestCase) -> String {
     format!("{}:{}:{}", test.index, test.repetition, test.seed)
 }
 
-/// Named after the file of the test, its number and its title; without what file systems treat in a special way.
-pub(super) fn file_name(test: &TestCase) -> String {
-    const MAX_LENGTH: usize = 80;
-    let stem = test.file.file_stem().unwrap_or_default().to_string_lossy();
-    let title = test.name.join("-");
-    let text = format!("{stem}-{}-{}-{title}", test.index, test.repetition);
-    let plain = text
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
-    plain.take(MAX_LENGTH).collect::<String>() + ".swc"
-}
-
 /// What a header says about that.
 pub(super) fn fact<'a>(header: &'a Header, name: &str) -> Option<&'a str> {
     let found = header.facts.iter().find(|(fact, _)| fact == name);
@@ -130,6 +130,10 @@ pub fn replay(config: &Config, header: &Header, tape: &Tape) -> Result<Vec<Outco
     let seed = tests.first().map_or(config.seed, |test| test.seed);
     let stop = Arc::new(AtomicBool::new(false));
     let mut session = Session::new(config, &file, seed, stop, tape);
+    if let Some(choices) = fact(header, CHOICES) {
+        let choices = search::values_of(choices).ok_or("its choices are no list of numbers")?;
+        session.take_cases_from(CaseSource::Single(plan_of(&choices)));
+    }
     let only = (tests.len() == 1).then_some(tests[0].index);
     if let Err(broken) = session.load(&file, None, only) {
         return Ok(vec![*broken]);
@@ -169,6 +173,6 @@ mod tests {
         for bad in ["", "1", "1:2", "1:2:x", "-1:0:0"] {
             assert!(test_of(file, bad).is_none(), "{bad}");
         }
-        assert_eq!(file_name(&test), "a-test-3-1--file-.swc");
+        assert_eq!(test.file_stem(), "a-test-3-1--file-");
     }
 }

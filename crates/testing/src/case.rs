@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use super::excerpt::Excerpt;
 use super::golden::Comparison;
+use super::property::{PropertyOptions, PropertyReport};
 use script::coverage::LineCounts;
-use script::test_bench::{ConsoleLine, Golden};
+use script::test_bench::{ConsoleLine, Golden, Signal};
 
 /// One test of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +26,8 @@ pub struct TestCase {
     pub repetition: u32,
     /// Seed of its simulator.
     pub seed: u32,
+    /// What it says about its cases, if it is a property.
+    pub property: Option<PropertyOptions>,
 }
 
 impl TestCase {
@@ -37,6 +40,7 @@ impl TestCase {
             line: None,
             repetition: 0,
             seed: 0,
+            property: None,
         }
     }
 
@@ -53,6 +57,19 @@ impl TestCase {
     /// `file::title`, what filters look at.
     pub fn id(&self) -> String {
         format!("{}::{}", self.file.display(), self.title())
+    }
+
+    /// A name for files about it, without their extension: the file of the test, its number and its title, without what file systems treat in
+    /// a special way.
+    pub fn file_stem(&self) -> String {
+        const MAX_LENGTH: usize = 80;
+        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        let title = self.name.join("-");
+        let text = format!("{stem}-{}-{}-{title}", self.index, self.repetition);
+        let plain = text
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
+        plain.take(MAX_LENGTH).collect()
     }
 
     /// Orders tests as files have them.
@@ -111,6 +128,10 @@ pub struct Outcome {
     pub recording: Option<PathBuf>,
     /// The file from which it can be run again, where failures are captured.
     pub capture: Option<PathBuf>,
+    /// Temporal properties over time.
+    pub signals: Vec<Signal>,
+    /// What is known of it, if it is a property.
+    pub property: Option<PropertyReport>,
     /// Results of a run of a batch.
     pub results: BTreeMap<String, String>,
     /// The names of the parameters that a batch's run has read.
@@ -140,6 +161,8 @@ impl Outcome {
             comparisons: Vec::new(),
             recording: None,
             capture: None,
+            signals: Vec::new(),
+            property: None,
             results: BTreeMap::new(),
             params_read: BTreeSet::new(),
             line_counts: LineCounts::default(),

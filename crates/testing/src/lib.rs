@@ -13,6 +13,7 @@ mod excerpt;
 mod golden;
 mod isolated;
 mod plan;
+mod property;
 mod recording;
 pub mod report;
 mod results;
@@ -34,6 +35,11 @@ pub use golden::{
     Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage,
     Recordings,
 };
+pub use property::{
+    FailingCases, PropertyOptions, PropertyReport, Sample, SearchOptions, ShownValue,
+};
+
+pub use search::Found;
 
 use permissions::Permissions;
 use plan::Plan;
@@ -68,6 +74,10 @@ pub struct Config {
     pub record_failures: Option<PathBuf>,
     /// Where captures of failed tests go, if they are wanted.
     pub captures: Option<Captures>,
+    /// Where failing cases of properties are kept, if they are.
+    pub failing_cases: Option<FailingCases>,
+    /// Only properties run, searched like this; None: all tests, properties as they say.
+    pub search: Option<SearchOptions>,
     /// The file for the report of which lines ran, if that is wanted.
     pub coverage: Option<PathBuf>,
     /// Limits of a test.
@@ -108,6 +118,8 @@ impl Config {
             artifacts: PathBuf::new(),
             record_failures: None,
             captures: None,
+            failing_cases: None,
+            search: None,
             coverage: None,
             allowance,
             permissions: Permissions::all(),
@@ -135,6 +147,11 @@ pub trait Reporter {
     /// All tests are known. A file that could not be loaded stands among them as a test of its own.
     fn begin(&mut self, tests: &[Arc<TestCase>]) {
         let _ = tests;
+    }
+
+    /// The search of a property goes on.
+    fn progress(&mut self, test: &TestCase, found: &Found) {
+        let _ = (test, found);
     }
 
     /// A test is over.
@@ -250,8 +267,10 @@ fn run_plan(
     if goes_on(&results) {
         let tasks = plan.jobs.into_iter().map(Task::Run).collect();
         work(config, tasks, &mut |message| {
-            if let Message::Finished(outcome) = message {
-                results.add(*outcome);
+            match message {
+                Message::Finished(outcome) => results.add(*outcome),
+                Message::Progress(test, found) => results.progress(&test, &found),
+                Message::Collected(_) => {}
             }
             goes_on(&results)
         });

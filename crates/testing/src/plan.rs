@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Config;
 use super::case::{Outcome, TestCase};
+use super::property::PropertyOptions;
 use script::test_bench::CompiledFile;
 
 /// Tests of a loaded file.
@@ -45,6 +46,8 @@ impl Collection {
 pub(super) struct Found {
     pub name: Vec<String>,
     pub line: Option<u32>,
+    /// What it says about its cases, if it is a property.
+    pub property: Option<PropertyOptions>,
 }
 
 /// Tests of one file that share a simulator.
@@ -142,6 +145,7 @@ fn cases(config: &Config, collection: &Collection) -> Vec<TestCase> {
             line,
             repetition: 0,
             seed: config.seed,
+            property: found.property,
         };
         (0..config.repeat.max(1)).map(move |repetition| TestCase {
             repetition,
@@ -160,6 +164,9 @@ fn cases(config: &Config, collection: &Collection) -> Vec<TestCase> {
 fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
     if let Some(only) = config.only {
         return (test.index, test.repetition) == only;
+    }
+    if config.search.is_some() && test.property.is_none() {
+        return false;
     }
     let id = test.id();
     let named =

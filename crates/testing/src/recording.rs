@@ -50,7 +50,7 @@ impl TestRecording {
 /// Writes the recording and its page; the path of the page.
 fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result<PathBuf> {
     std::fs::create_dir_all(folder)?;
-    let path = folder.join(file_name(test));
+    let path = folder.join(test.file_stem());
     write_whole(&path.with_extension("swr"), &std::fs::read(file.path())?)?;
     let mut recording =
         Recording::open(BufReader::new(file.reopen()?)).map_err(std::io::Error::other)?;
@@ -60,20 +60,4 @@ fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result
     let page_path = path.with_extension("html");
     write_whole(&page_path, page.get_ref())?;
     Ok(page_path)
-}
-
-/// Names the file of the test, its number and its title; without what file systems or addresses treat in a special way. The extension is to be set.
-fn file_name(test: &TestCase) -> String {
-    const MAX_LENGTH: usize = 80;
-    let stem = test.file.file_stem().unwrap_or_default().to_string_lossy();
-    let text = format!(
-        "{stem}-{}-{}-{}",
-        test.index,
-        test.repetition,
-        test.name.join("-")
-    );
-    let plain = text
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
-    plain.take(MAX_LENGTH).collect::<String>() + ".swr"
 }

@@ -49,6 +49,11 @@ impl<'a> Results<'a> {
         }
     }
 
+    /// The search of a property goes on.
+    pub(super) fn progress(&mut self, test: &TestCase, found: &search::Found) {
+        self.reporter.progress(test, found);
+    }
+
     /// A test is over.
     pub(super) fn add(&mut self, mut outcome: Outcome) {
         self.counts.merge(std::mem::take(&mut outcome.line_counts));

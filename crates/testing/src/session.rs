@@ -11,10 +11,13 @@ use super::captures::TestCapture;
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
+use super::property::PropertyOptions;
 use super::recording::TestRecording;
 use scene::Data;
 use script::TestBench;
 use script::test_bench::CompiledFile;
+use script::test_cases::{CaseSource, Note, TestCases};
+use search::Value;
 use simulator::{Limits, Options, ScriptKind, ScriptRef, Simulator, Tape};
 
 /// A simulator that has loaded a test file.
@@ -39,6 +42,18 @@ impl Session {
         stop: Arc<AtomicBool>,
         tape: &Tape,
     ) -> Self {
+        Self::with_lines(config, file, seed, stop, tape, config.coverage.is_some())
+    }
+
+    /// The same, which counts the lines of scripts if asked to.
+    pub(super) fn with_lines(
+        config: &Config,
+        file: &Path,
+        seed: u32,
+        stop: Arc<AtomicBool>,
+        tape: &Tape,
+        count_lines: bool,
+    ) -> Self {
         let name = file.to_string_lossy().into_owned();
         let bench = TestBench::new(name, config.allowance.simulated, Some(run_apart));
         let folder = file
@@ -54,7 +69,7 @@ impl Session {
             limits: Some(Limits {
                 memory: config.allowance.memory,
             }),
-            count_lines: config.coverage.is_some(),
+            count_lines,
             package_dirs: vec![folder.to_owned()],
             // The file itself is read by Lua.
             permissions: config.permissions_in(folder).allow_read(file).on_tape(tape),
@@ -75,17 +90,19 @@ impl Session {
         }
     }
 
-    /// The same for those tests; a failed one is captured where that is asked for. The outcome of a test when that cannot be.
+    /// The same for those tests; a failed one is captured where that is asked for, with the choices of the case that it runs. The outcome of
+    /// a test when that cannot be.
     pub(super) fn of_tests(
         config: &Config,
         tests: &[Arc<TestCase>],
+        choices: Option<&[Value]>,
         stop: Arc<AtomicBool>,
     ) -> Result<Self, Box<Outcome>> {
         let (file, seed) = (&tests[0].file, tests[0].seed);
         let Some(captures) = &config.captures else {
             return Ok(Self::new(config, file, seed, stop, &Tape::default()));
         };
-        let capture = TestCapture::start(captures, file, tests).map_err(|error| {
+        let capture = TestCapture::start(captures, file, tests, choices).map_err(|error| {
             let message = format!("the test cannot be captured: {error}");
             Box::new(Outcome::new(Arc::clone(&tests[0]), Status::Error, message))
         })?;
@@ -94,6 +111,19 @@ impl Session {
             capture: Some(capture),
             ..session
         })
+    }
+
+    /// The property that is run next has these cases.
+    pub(super) fn take_cases_from(&mut self, source: CaseSource) {
+        self.bench
+            .cases
+            .replace(Some(Rc::new(TestCases::new(source))));
+    }
+
+    /// What its last case has noted. It has no more cases.
+    pub(super) fn take_notes(&mut self) -> Vec<Note> {
+        let cases = self.bench.cases.take();
+        cases.map(|cases| cases.notes()).unwrap_or_default()
     }
 
     /// Whether a file that was compiled before may be loaded: a capture has the text.
@@ -195,6 +225,7 @@ impl Session {
         }
         (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
         outcome.goldens = self.bench.take_goldens();
+        outcome.signals = self.bench.take_signals();
         outcome.console = self.bench.take_lines();
         self.explain_interruption(&mut outcome);
         outcome
@@ -286,6 +317,19 @@ fn found(test: &Data) -> Found {
     Found {
         name: names,
         line: line(test),
+        property: test.field("property").map(property),
+    }
+}
+
+fn property(options: &Data) -> PropertyOptions {
+    let count = |name: &str| match options.field(name) {
+        Some(Data::Int(count)) => usize::try_from(*count).ok(),
+        Some(Data::Float(count)) => Some(*count as usize),
+        _ => None,
+    };
+    PropertyOptions {
+        cases: count("cases"),
+        shrinks: count("shrinks"),
     }
 }
 

@@ -21,7 +21,9 @@ use super::batch;
 use super::case::{Outcome, Status, TestCase};
 use super::isolated;
 use super::plan::{Collection, Job};
+use super::property::Property;
 use super::session::Session;
+use search::Found;
 use simulator::{Simulator, Tape};
 
 /// How often the clock is looked at.
@@ -47,11 +49,15 @@ pub(super) enum Task {
 pub(super) enum Message {
     Collected(Box<Collection>),
     Finished(Box<Outcome>),
+    /// The search of a property goes on.
+    Progress(Arc<TestCase>, Box<Found>),
 }
 
 enum WorkerEvent {
     /// A worker begins with something that takes time, and can be asked to stop it.
     Started(Running),
+    /// A case of it is over: the next one has the time of a test.
+    NextCase,
     Ready(Message),
     /// A worker has nothing left to do.
     Gone,
@@ -63,6 +69,8 @@ struct Running {
     rest: Job,
     stop: Arc<AtomicBool>,
     started: Instant,
+    /// When its last case began; when it started itself, without cases.
+    case_started: Instant,
 }
 
 /// Remaining tasks.
@@ -162,6 +170,12 @@ impl Watch<'_> {
         };
         match event {
             WorkerEvent::Started(started) => *running = Some(started),
+            WorkerEvent::NextCase => {
+                if let Some(running) = running {
+                    running.case_started = Instant::now();
+                }
+            }
+            WorkerEvent::Ready(message @ Message::Progress(..)) => self.take(message, None),
             WorkerEvent::Ready(message) => {
                 let running = running.take();
                 self.take(message, running);
@@ -178,6 +192,9 @@ impl Watch<'_> {
                 outcome.message = too_long(self.shared.config.allowance.wall);
                 if let Some(place) = outcome.stopped_at.take() {
                     outcome.message += &format!("\nIt was at {place}");
+                }
+                if let Some(property) = &outcome.property {
+                    outcome.message += &property.unfinished;
                 }
             }
         }
@@ -211,7 +228,7 @@ impl Watch<'_> {
         let mut stuck = Vec::new();
         for (&worker, running) in &self.workers {
             let Some(running) = running else { continue };
-            let wall = running.started.elapsed();
+            let wall = running.case_started.elapsed();
             if interrupted || wall > limit {
                 running.stop.store(true, Ordering::Relaxed);
             }
@@ -302,11 +319,13 @@ impl Worker {
 
     fn begin(&self, test: &Arc<TestCase>, rest: Job, stop: &Arc<AtomicBool>) {
         let (test, stop) = (Arc::clone(test), Arc::clone(stop));
+        let now = Instant::now();
         self.send(WorkerEvent::Started(Running {
             test,
             rest,
             stop,
-            started: Instant::now(),
+            started: now,
+            case_started: now,
         }));
     }
 
@@ -351,12 +370,32 @@ impl Worker {
         }
     }
 
+    fn run_property(&self, test: &Arc<TestCase>, job: &Job, stop: &Arc<AtomicBool>) -> Outcome {
+        let property = Property {
+            config: &self.shared.config,
+            test,
+            compiled: job.compiled.clone(),
+            stop,
+        };
+        let (id, sender) = (self.id, self.sender.clone());
+        // Without a receiver the run is over.
+        let on_case = move || drop(sender.send((id, WorkerEvent::NextCase)));
+        property.run(on_case, &mut |found| {
+            let message = Message::Progress(Arc::clone(test), Box::new(found.clone()));
+            self.send(WorkerEvent::Ready(message));
+        })
+    }
+
     /// Returns the job with the tests that are left.
     fn run_until_stopped(&self, mut job: Job, stop: &Arc<AtomicBool>) -> Job {
         let Some(first) = job.left().first().cloned() else {
             return job;
         };
-        let session = Session::of_tests(&self.shared.config, job.left(), Arc::clone(stop));
+        if first.property.is_some() {
+            self.finished(self.run_property(&first, &job, stop));
+            return job.rest();
+        }
+        let session = Session::of_tests(&self.shared.config, job.left(), None, Arc::clone(stop));
         let mut session = match session {
             Ok(session) => session,
             Err(outcome) => {
@@ -413,4 +452,5 @@ impl Worker {
     }
 }
 
-const CRASHED: &str = "internal error in Swanilda, please report it: the simulator has crashed.";
+pub(super) const CRASHED: &str =
+    "internal error in Swanilda, please report it: the simulator has crashed.";

@@ -55,11 +55,19 @@
 ---     t.lines(), t.prints(), t.logs(pattern)      what was printed (print, io.write) and logged: text, level, time, origin
 ---     t.allow_script_errors()     errors of scripts do not end the test
 ---
---- Faults, from the seed of the run
----     t.faults.noise(script, name, sigma[, result])       numbers a function returns become noisy; result: which one
----     t.faults.dropout(script, name, probability, ...)    calls fail now and then: they return the values given
----     t.faults.delay(script, name, seconds)               calls take effect later, such as sim.setFloatSignal; they return nothing
----     t.faults.friction(joint, force)                     friction in a joint, N or Nm
+--- Properties and what holds over time, see docs/TESTING.md
+---     t.property(name, options, fn)       a test that runs for many cases; fn(g) draws its values, such as g.float(0, 1)
+---     t.always(f[, name])                 f holds at each step from now on: it returns a boolean, or a number that is negative where it does not
+---     t.eventually(f[, within][, name])   f holds at some step within so many seconds, or until the end
+---     t.holdsUntil(f, g[, within][, name])    f holds until g does, which it does
+---     t.leadsTo(f, g, within[, name])     whenever f holds, g does within so many seconds
+---
+--- Faults, from the seed of the run: each returns a fault f, which f:stop() ends. docs/TESTING.md has a table
+---     t.faults.noise, bias, dropout, stuck, blackout      (script, name, ...) what a function returns
+---     t.faults.delay, lose, double, reorder               (script, name, ...) calls that send something, such as sim.setFloatSignal
+---     t.faults.slow, fail, crash                          (script, ...) programs
+---     t.faults.backlash, weak, jam, friction              (script or joint, ...) motors
+---     t.faults.mass, slip, push                           (shape, ...) bodies
 ---     t.random(), t.gauss()
 ---
 --- Recordings
@@ -70,6 +78,10 @@ local t = {}
 
 ---@param allowed? boolean
 function t.allow_script_errors(allowed) end
+
+---@param f function
+---@param name? string
+function t.always(f, name) end
 
 function t.answer(dialog, value) end
 
@@ -88,6 +100,11 @@ function t.dialogs() end
 ---@return integer count
 function t.errors() end
 
+---@param f function
+---@param within? number
+---@param name? string
+function t.eventually(f, within, name) end
+
 ---@param name string
 ---@return string path
 function t.file(name) end
@@ -104,9 +121,21 @@ function t.golden(name, quantities, options) end
 
 function t.hash() end
 
+---@param f function
+---@param g function
+---@param within? number
+---@param name? string
+function t.holdsUntil(f, g, within, name) end
+
 ---@param sensor any
 ---@param options? table
 function t.image(sensor, options) end
+
+---@param f function
+---@param g function
+---@param within number
+---@param name? string
+function t.leadsTo(f, g, within, name) end
 
 --- Captured prints and log lines.
 ---@param first? integer lines to leave out
@@ -117,20 +146,14 @@ function t.lines(first, unfinished) end
 ---@param file string
 function t.load(file) end
 
----@param pattern? string
----@return table lines
-function t.logs(pattern) end
-
----@param data any
----@param options? table
-function t.message(data, options) end
-
 ---@param path string
 ---@return integer handle
 function t.object(path) end
 
----@return table prints
-function t.prints() end
+---@param name string
+---@param options table
+---@param property function
+function t.property(name, options, property) end
 
 ---@return number number
 function t.random() end
@@ -156,11 +179,6 @@ function t.run_until(condition, timeout) end
 ---@param script any
 ---@return table script
 function t.script(script) end
-
----@param name string
----@param ... any
----@return any value
-function t.signal(name, ...) end
 
 function t.start() end
 

@@ -52,11 +52,19 @@ Messages and logs
     t.lines(), t.prints(), t.logs(pattern)      what was printed (print, io.write) and logged: text, level, time, origin
     t.allow_script_errors()     errors of scripts do not end the test
 
-Faults, from the seed of the run
-    t.faults.noise(script, name, sigma[, result])       numbers a function returns become noisy; result: which one
-    t.faults.dropout(script, name, probability, ...)    calls fail now and then: they return the values given
-    t.faults.delay(script, name, seconds)               calls take effect later, such as sim.setFloatSignal; they return nothing
-    t.faults.friction(joint, force)                     friction in a joint, N or Nm
+Properties and what holds over time, see docs/TESTING.md
+    t.property(name, options, fn)       a test that runs for many cases; fn(g) draws its values, such as g.float(0, 1)
+    t.always(f[, name])                 f holds at each step from now on: it returns a boolean, or a number that is negative where it does not
+    t.eventually(f[, within][, name])   f holds at some step within so many seconds, or until the end
+    t.holdsUntil(f, g[, within][, name])    f holds until g does, which it does
+    t.leadsTo(f, g, within[, name])     whenever f holds, g does within so many seconds
+
+Faults, from the seed of the run: each returns a fault f, which f:stop() ends. docs/TESTING.md has a table
+    t.faults.noise, bias, dropout, stuck, blackout      (script, name, ...) what a function returns
+    t.faults.delay, lose, double, reorder               (script, name, ...) calls that send something, such as sim.setFloatSignal
+    t.faults.slow, fail, crash                          (script, ...) programs
+    t.faults.backlash, weak, jam, friction              (script or joint, ...) motors
+    t.faults.mass, slip, push                           (shape, ...) bodies
     t.random(), t.gauss()
 
 Recordings
@@ -69,8 +77,11 @@ local _, native = ...
 local sim = require('sim')
 local recorder = require('swanilda.test.recordings')
 local Script = require('swanilda.test.scripts')
+local temporal = require('swanilda.test.temporal')
+local properties = require('swanilda.test.properties')
+local busted = require('busted')
 
-local t = { faults = {} }
+local t = {}
 
 local scheduled = {} -- { time, fn }, by time
 local recordings = {}
@@ -188,6 +199,7 @@ end
 
 local function sample()
     for _, recording in ipairs(recordings) do recording:sample() end
+    temporal.sample()
 end
 
 -- One step; false when the simulation has ended.
@@ -278,45 +290,7 @@ function t.dialogs() return native.dialogs() end
 
 ---------------------------------------------------------------- messages and logs
 
--- @api any value = swanilda.test.signal(string name, ...)
-function t.signal(name, ...)
-    if select('#', ...) == 0 then
-        return sim.getFloatSignal(name) or sim.getInt32Signal(name) or sim.getStringSignal(name)
-    end
-    local value = ...
-    if value == false or value == nil then
-        for _, kind in ipairs { 'Float', 'Int32', 'String' } do sim['clear' .. kind .. 'Signal'](name) end
-    elseif math.type(value) == 'integer' then
-        sim.setInt32Signal(name, value)
-    elseif math.type(value) == 'float' then
-        sim.setFloatSignal(name, value)
-    else
-        sim.setStringSignal(name, value)
-    end
-end
-
--- @api swanilda.test.message(any data, table options = nil)
-function t.message(data, options) return sim.broadcastMsg(data, options) end
-
-function t.lines() return native.lines(0, true) end
-
--- @api table prints = swanilda.test.prints()
-function t.prints()
-    local texts = {}
-    for _, line in ipairs(t.lines()) do
-        if line.level == 'print' then texts[#texts + 1] = line.text end
-    end
-    return texts
-end
-
--- @api table lines = swanilda.test.logs(string pattern = nil)
-function t.logs(pattern)
-    local found = {}
-    for _, line in ipairs(native.lines()) do
-        if line.origin and (not pattern or line.text:find(pattern)) then found[#found + 1] = line end
-    end
-    return found
-end
+require('swanilda.test.messages')(t, native)
 
 ---------------------------------------------------------------- faults
 
@@ -329,54 +303,56 @@ function t.gauss()
     return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())
 end
 
-local function asScript(script)
-    return getmetatable(script) == Script and script or t.script(script)
+local makeFaults
+t.faults, makeFaults = require('swanilda.test.faults')(t, Script, properties.shown)
+
+---------------------------------------------------------------- temporal properties
+
+temporal.begin(t.time, native.leaveSignal)
+
+local function sampled(monitor)
+    if sim.getSimulationState() ~= sim.simulation_stopped then temporal.sample() end
+    return monitor
 end
 
-local function noisy(value, sigma)
-    if type(value) == 'number' then return value + sigma * t.gauss() end
-    if type(value) ~= 'table' then return value end
-    local values = {}
-    for key, entry in pairs(value) do values[key] = noisy(entry, sigma) end
-    return values
-end
+-- @api swanilda.test.always(func f, string name = nil)
+function t.always(f, name) sampled(temporal.always(f, name)) end
 
-function t.faults.noise(script, name, sigma, result)
-    asScript(script):wrap(name, function(call, ...)
-        local results = table.pack(call(...))
-        for i = 1, results.n do
-            if not result or i == result then results[i] = noisy(results[i], sigma) end
-        end
-        return table.unpack(results, 1, results.n)
-    end)
-end
+-- @api swanilda.test.eventually(func f, float within = nil, string name = nil)
+function t.eventually(f, within, name) sampled(temporal.eventually(f, within, name)) end
 
-function t.faults.dropout(script, name, probability, ...)
-    local instead = table.pack(...)
-    asScript(script):wrap(name, function(call, ...)
-        if math.random() < probability then return table.unpack(instead, 1, instead.n) end
-        return call(...)
-    end)
-end
+-- @api swanilda.test.holdsUntil(func f, func g, float within = nil, string name = nil)
+function t.holdsUntil(f, g, within, name) sampled(temporal.holdsUntil(f, g, within, name)) end
 
-function t.faults.delay(script, name, seconds)
-    asScript(script):wrap(name, function(call, ...)
-        local arguments = table.pack(...)
-        t.at(t.time() + seconds, function() call(table.unpack(arguments, 1, arguments.n)) end)
-    end)
-end
+-- @api swanilda.test.leadsTo(func f, func g, float within, string name = nil)
+function t.leadsTo(f, g, within, name) sampled(temporal.leadsTo(f, g, within, name)) end
 
-function t.faults.friction(joint, force)
-    -- A motor that holds still with the force of the friction; one that drives has that much less.
-    local handle = type(joint) == 'string' and sim.getObject(joint) or joint
-    if sim.getObjectInt32Param(handle, sim.jointintparam_dynctrlmode) == sim.jointdynctrl_free then
-        sim.setObjectInt32Param(handle, sim.jointintparam_dynctrlmode, sim.jointdynctrl_velocity)
-        sim.setJointTargetVelocity(handle, 0)
-        sim.setJointTargetForce(handle, force)
-    else
-        sim.setJointTargetForce(handle, math.max(0, sim.getJointTargetForce(handle) - force))
+---------------------------------------------------------------- properties
+
+properties.begin(native, makeFaults)
+
+-- @api swanilda.test.property(string name, table options, func property)
+function t.property(name, options, property)
+    if property == nil then options, property = {}, options end
+    if type(property) ~= 'function' or type(options) ~= 'table' then
+        error('t.property: a name, a table of options and a function are expected.', 2)
     end
+    properties.check(options)
+    busted.property(name, options, property)
 end
+
+local cases = {}
+
+-- What belongs to the end of a case, before what it did is undone.
+function cases.finishCase()
+    temporal.finish()
+    t._checkErrors()
+end
+
+cases.robustness = temporal.robustness
+
+-- Called by the runner to test a property.
+function t._runProperty(property, explain) properties.run(property, cases, explain) end
 
 ---------------------------------------------------------------- recordings
 
@@ -402,8 +378,11 @@ function t.image(sensor, options)
     native.image(options.name or 'image', handle, options.tolerance or 2, options.share or 0)
 end
 
--- Called by the runner when the test is over.
-function t._finish()
+-- Called by the runner when the test is over; hasFailed: it has failed already.
+function t._finish(hasFailed)
+    local ok, failure = pcall(hasFailed and function() end or temporal.finish)
+    temporal.leave()
+    if not ok then error(failure, 0) end
     for _, recording in ipairs(recordings) do
         native.golden(recording.name, recording.columns, recording.rows, recording.options)
     end

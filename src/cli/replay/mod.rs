@@ -99,7 +99,11 @@ impl Args {
                 super::view::view(&view)
             }
             Command::Test(test) => {
-                super::test::replay(&test, header, tape)?;
+                super::test::replay(&test.common, header, tape)?;
+                Ok(ExitCode::SUCCESS)
+            }
+            Command::Search(search) => {
+                super::test::replay(&search.common, header, tape)?;
                 Ok(ExitCode::SUCCESS)
             }
             Command::Batch(batch) => {

@@ -10,6 +10,7 @@ use crate::cli::Command;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::launch::Launch;
 use crate::cli::setup::Setup;
+use crate::cli::test::CommonArgs;
 
 /// Whether a file is a capture, by its first bytes.
 pub(in crate::cli) fn is_capture(path: &Path) -> bool {
@@ -19,17 +20,16 @@ pub(in crate::cli) fn is_capture(path: &Path) -> bool {
     )
 }
 
-/// The command, the header and the tape of a capture of tests; None for other captures.
+/// The options, the header and the tape of a capture of tests; None for other captures.
 ///
 /// # Errors
 /// When the file cannot be read.
-pub(in crate::cli) fn tests_of(
-    path: &Path,
-) -> Result<Option<(crate::cli::test::Args, Header, Tape)>, String> {
+pub(in crate::cli) fn tests_of(path: &Path) -> Result<Option<(CommonArgs, Header, Tape)>, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     let (tape, header) = Tape::replaying(path).map_err(|error| unreadable(error.to_string()))?;
     Ok(match command(&header).map_err(unreadable)? {
-        Command::Test(test) => Some((test, header, tape)),
+        Command::Test(test) => Some((test.common, header, tape)),
+        Command::Search(search) => Some((search.common, header, tape)),
         _ => None,
     })
 }
@@ -82,7 +82,7 @@ pub(in crate::cli) fn open(
         Command::Run(run) => open.playback(*run, build)?,
         Command::Serve(serve) => open.playback(serve, build)?,
         Command::View(view) => open.playback(view, build)?,
-        Command::Test(_) | Command::Batch(_) => {
+        Command::Test(_) | Command::Search(_) | Command::Batch(_) => {
             let reason = "the capture of a test or a batch runs from its beginning to its end only: see `swanilda replay`";
             return Err(unreadable(reason.into()));
         }

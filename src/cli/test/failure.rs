@@ -20,7 +20,22 @@ pub(super) fn block(outcome: &Outcome, paint: Paint, with_trace: bool) -> String
     if with_trace {
         text += &indented("    ", &paint.paint(DIM, harmless(&outcome.trace).trim()));
     }
-    text + &console(outcome, paint)
+    text + &files(outcome) + &console(outcome, paint)
+}
+
+/// How the failing case of a property is looked at again.
+fn files(outcome: &Outcome) -> String {
+    if outcome.property.is_none() {
+        return String::new();
+    }
+    let capture = outcome.capture.as_deref();
+    let capture = capture.map(|file| format!("run it again: swanilda replay {}", file.display()));
+    let page = outcome.recording.as_deref();
+    let page = page.map(|file| format!("see it: {}", file.display()));
+    let lines = capture.into_iter().chain(page);
+    lines
+        .map(|line| indented("    ", &harmless(&line)))
+        .collect()
 }
 
 fn excerpt(excerpt: &Excerpt, paint: Paint) -> String {

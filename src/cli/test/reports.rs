@@ -10,12 +10,12 @@ use super::paint::ColorChoice;
 use super::terminal::{Terminal, TerminalOptions};
 use format::scene_file::{is_special, link_target, write_whole};
 use testing::report::{html, json, junit, tap};
-use testing::{Outcome, Reporter, Summary, TestCase};
+use testing::{Found, Outcome, Reporter, Summary, TestCase};
 
 /// The options of reports.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Reports")]
-pub(super) struct ReportArgs {
+pub(in crate::cli) struct ReportArgs {
     /// Write a report that CI systems read: JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -23,10 +23,10 @@ pub(super) struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// Results to standard output as TAP 14, as the tests finish
-    #[arg(long, conflicts_with_all = ["json", "watch", "list"])]
+    #[arg(long, conflicts_with = "json")]
     tap: bool,
     /// Results to standard output as lines of JSON, as the tests finish
-    #[arg(long, conflicts_with_all = ["watch", "list"])]
+    #[arg(long)]
     json: bool,
     /// Show each test, and tracebacks
     #[arg(long, short)]
@@ -50,7 +50,7 @@ impl ReportArgs {
     ///
     /// # Errors
     /// The reason why one cannot.
-    pub(super) fn check(&self) -> Result<(), String> {
+    pub(in crate::cli) fn check(&self) -> Result<(), String> {
         [&self.junit, &self.html]
             .into_iter()
             .flatten()
@@ -63,7 +63,7 @@ impl ReportArgs {
     }
 
     /// Output while the tests run.
-    pub(super) fn reporter(&self) -> Reports {
+    pub(in crate::cli) fn reporter(&self) -> Reports {
         let stream = if self.tap {
             Some(Stream::Tap(0))
         } else {
@@ -84,7 +84,7 @@ impl ReportArgs {
     }
 
     /// Prints a message that belongs to no report, without disturbing one.
-    pub(super) fn print(&self, text: &str) {
+    pub(in crate::cli) fn print(&self, text: &str) {
         match (self.tap || self.json, std::io::stdout().is_terminal()) {
             (true, true) => {}
             (true, false) => drop(std::io::stderr().lock().write_all(text.as_bytes())),
@@ -96,7 +96,7 @@ impl ReportArgs {
     ///
     /// # Errors
     /// The reason why one could not be written.
-    pub(super) fn write(&self, summary: &Summary) -> Result<(), String> {
+    pub(in crate::cli) fn write(&self, summary: &Summary) -> Result<(), String> {
         if let Some(file) = &self.junit {
             write(file, &junit::report(summary))?;
         }
@@ -111,7 +111,7 @@ impl ReportArgs {
 }
 
 /// All output while the tests run.
-pub(super) struct Reports {
+pub(in crate::cli) struct Reports {
     terminal: Option<Terminal>,
     stream: Option<Stream>,
 }
@@ -133,6 +133,12 @@ impl Reporter for Reports {
         self.terminal
             .iter_mut()
             .for_each(|terminal| terminal.begin(tests));
+    }
+
+    fn progress(&mut self, test: &TestCase, found: &Found) {
+        self.terminal
+            .iter_mut()
+            .for_each(|terminal| terminal.progress(test, found));
     }
 
     fn outcome(&mut self, outcome: &Outcome) {

@@ -14,7 +14,7 @@ use super::super::standard_output;
 use super::failure;
 use super::paint::{BOLD, ColorChoice, DIM, GREEN, Paint, RED, YELLOW, harmless};
 use testing::report::files;
-use testing::{Outcome, Reporter, Status, Summary, TestCase};
+use testing::{Found, Outcome, Reporter, Status, Summary, TestCase};
 
 /// Options for the terminal.
 #[derive(Debug, Clone, Copy)]
@@ -238,6 +238,18 @@ impl Reporter for Terminal {
             self.open.entry(test.file.clone()).or_default().0 += 1;
         }
         self.show_bar(tests.len());
+    }
+
+    fn progress(&mut self, _: &TestCase, found: &Found) {
+        let closest = found.closest.as_ref().map(|report| report.robustness);
+        let closest = closest.map_or_else(String::new, |least| format!(", robustness {least:.4}"));
+        let failing = if found.failing.is_some() {
+            ", simplifying"
+        } else {
+            ""
+        };
+        self.bar
+            .set_message(format!(", {} cases{closest}{failing}", found.cases));
     }
 
     fn outcome(&mut self, outcome: &Outcome) {

@@ -185,7 +185,8 @@ const SCRIPT: Rooms = &[
     ),
     ("app_storage", &["log", "wall_clock"]),
     ("event_stream", &["log"]),
-    ("test_bench", &["coverage", "log", "options"]),
+    ("test_cases", &[]),
+    ("test_bench", &["coverage", "log", "options", "test_cases"]),
     ("lua", &["budget", "function_ref"]),
     ("binding", &["error", "function_ref", "lua", "tape"]),
     (

@@ -2,6 +2,7 @@
 
 mod branch;
 mod button_interfaces;
+mod cases;
 mod run;
 mod windows;
 
@@ -20,6 +21,7 @@ pub(super) static MODULE: Module = Module {
     inner: &[
         FUNCTIONS,
         branch::FUNCTIONS,
+        cases::FUNCTIONS,
         run::FUNCTIONS,
         windows::FUNCTIONS,
     ],

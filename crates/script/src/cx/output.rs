@@ -46,6 +46,11 @@ impl Cx<'_> {
         self.sim.test_bench.get()
     }
 
+    /// The counts of the lines of all scripts since the last call.
+    pub fn take_line_counts(&self) -> LineCounts {
+        self.sim.take_line_counts()
+    }
+
     /// Adds lines that another simulator has counted.
     pub fn add_line_counts(&mut self, counts: LineCounts) {
         self.sim.line_counts.borrow_mut().merge(counts);

@@ -2,6 +2,8 @@
 //!
 //! Its content security policy forbids external resources. Plots are separate images, so their text never becomes part of the page.
 
+mod property;
+
 use std::fmt;
 use std::path::Path;
 
@@ -113,11 +115,12 @@ fn test(outcome: &Outcome, folder: &Path) -> String {
     let wall = duration(outcome.wall.as_secs_f64());
     format!(
         "<details class=\"test {word}\"{open}>\n<summary><span class=\"status\">{word}</span> \
-        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}{}{}</div>\n</details>\n",
+        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}{}{}{}</div>\n</details>\n",
         Quoted(&title),
         message(outcome),
         outcome.excerpts.iter().map(excerpt).collect::<String>(),
         facts(outcome),
+        property::section(outcome),
         outcome
             .recording
             .as_deref()

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::parts;
-use crate::{Excerpt, Outcome, Status, Summary, TestCase};
-use script::test_bench::ConsoleLine;
+use crate::{Excerpt, Outcome, PropertyReport, ShownValue, Status, Summary, TestCase};
+use script::test_bench::{ConsoleLine, Signal};
 
 /// The first line: how many tests will run.
 pub fn begin(tests: &[impl AsRef<TestCase>]) -> String {
@@ -41,6 +41,8 @@ pub(crate) fn test_value(outcome: &Outcome) -> Value {
         "script": outcome.script,
         "recording": outcome.recording,
         "capture": outcome.capture,
+        "property": outcome.property.as_ref().map(property),
+        "temporal": outcome.signals.iter().map(signal).collect::<Vec<_>>(),
         "excerpts": outcome.excerpts.iter().map(excerpt).collect::<Vec<_>>(),
         "trace": outcome.trace,
         "time": outcome.time,
@@ -63,6 +65,29 @@ pub fn end(summary: &Summary) -> String {
         "interrupted": summary.interrupted,
         "wallTime": summary.wall.as_secs_f64(),
     }))
+}
+
+/// Robustness that was not measured is null.
+fn property(property: &PropertyReport) -> Value {
+    let values = |values: &[ShownValue]| -> Value {
+        let value = |value: &ShownValue| json!({"line": value.line, "source": value.source, "value": value.value});
+        values.iter().map(value).collect()
+    };
+    json!({
+        "cases": property.cases,
+        "discarded": property.discarded,
+        "shrinks": property.shrinks,
+        "chosen": property.chosen,
+        "robustness": property.robustness,
+        "lines": property.lines,
+        "first": values(&property.first),
+        "simplest": values(&property.simplest),
+        "kept": property.kept,
+    })
+}
+
+fn signal(signal: &Signal) -> Value {
+    json!({"name": signal.name, "robustness": signal.robustness})
 }
 
 fn excerpt(excerpt: &Excerpt) -> Value {

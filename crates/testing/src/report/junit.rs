@@ -88,6 +88,12 @@ fn write_properties(xml: &mut Xml, outcome: &Outcome) -> io::Result<()> {
         let name = file.to_string_lossy();
         ("capture", clean(&name).into_owned())
     }));
+    if let Some(property) = &outcome.property {
+        properties.push(("cases", property.cases.to_string()));
+        if property.robustness.is_finite() {
+            properties.push(("robustness", property.robustness.to_string()));
+        }
+    }
     properties.extend(
         outcome
             .script

@@ -7,6 +7,8 @@ local sim = require('sim')
 local Script = {}
 Script.__index = Script
 
+function Script:__tostring() return sim.getObjectAlias(self.handle, 2) end
+
 -- What scripts call when a function of theirs is wrapped: by number, with the script that calls.
 local wrappers = {}
 function _swanilda_test_wrapper(number, ...) return wrappers[number](...) end

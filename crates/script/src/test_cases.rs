@@ -1,0 +1,158 @@
+//! The cases of a property: what the script of a test draws its values from, and what the runner learns of each case.
+//!
+//! Like the bench it lies on, it is outside of the simulator's memory: a case is undone, what it has chosen is not.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+
+use heap::outside;
+use search::{Case, Domain, Plan, Report, Server, Status, Value};
+
+/// Where cases come from.
+#[derive(Debug, Clone)]
+pub enum CaseSource {
+    /// One case, which is not undone: the simulator is left as it ends.
+    Single(Plan),
+    /// Those of a search, each of which is undone.
+    Search(Arc<Server>),
+}
+
+/// A value that a case has drawn, for people.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// The line of the test's file that has drawn it, if known.
+    pub line: Option<u32>,
+    /// The value.
+    pub text: String,
+}
+
+/// How a case ended, in the words of the test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseEnd {
+    /// How it ended.
+    pub status: Status,
+    /// Where it failed.
+    pub place: String,
+    /// How far it was from failing; infinite when that was not measured.
+    pub robustness: f64,
+    /// Lines of scripts that ran, as numbers, where they are counted.
+    pub covered: Vec<u64>,
+}
+
+/// The cases of a property.
+#[derive(Debug)]
+pub struct TestCases {
+    source: CaseSource,
+    running: RefCell<Option<Running>>,
+    notes: RefCell<Vec<Note>>,
+    /// The single case has been begun.
+    is_used: Cell<bool>,
+}
+
+#[derive(Debug)]
+struct Running {
+    number: usize,
+    case: Case,
+}
+
+impl TestCases {
+    /// The cases of that source.
+    pub fn new(source: CaseSource) -> Self {
+        Self {
+            source,
+            running: RefCell::default(),
+            notes: RefCell::default(),
+            is_used: Cell::default(),
+        }
+    }
+
+    /// Whether each case is undone.
+    pub fn are_undone(&self) -> bool {
+        matches!(self.source, CaseSource::Search(_))
+    }
+
+    /// Begins the next case, waiting for one; false at the end, or when `is_stopped`.
+    pub fn begin(&self, is_stopped: impl Fn() -> bool) -> bool {
+        outside(|| {
+            let next = match &self.source {
+                CaseSource::Single(_) if self.is_used.replace(true) => None,
+                CaseSource::Single(plan) => Some((0, plan.clone())),
+                CaseSource::Search(server) => server.next(is_stopped),
+            };
+            let case = next.map(|(number, plan)| Running {
+                number,
+                case: Case::new(plan),
+            });
+            self.notes.borrow_mut().clear();
+            *self.running.borrow_mut() = case;
+        });
+        self.running.borrow().is_some()
+    }
+
+    /// Makes a choice of the case that runs. None when none runs, or when it has made too many.
+    pub fn choose(&self, domain: Domain) -> Option<Value> {
+        let mut running = self.running.borrow_mut();
+        outside(|| running.as_mut()?.case.choose(domain))
+    }
+
+    /// Begins or ends a span of choices that belong together.
+    pub fn span(&self, begins: bool) {
+        let mut running = self.running.borrow_mut();
+        let Some(running) = running.as_mut() else {
+            return;
+        };
+        outside(|| {
+            if begins {
+                running.case.begin_span();
+            } else {
+                running.case.end_span();
+            }
+        });
+    }
+
+    /// Notes a value for people.
+    pub fn note(&self, line: Option<u32>, text: &str) {
+        outside(|| {
+            let text = text.to_owned();
+            self.notes.borrow_mut().push(Note { line, text });
+        });
+    }
+
+    /// The values that were noted since the case has begun.
+    pub fn notes(&self) -> Vec<Note> {
+        self.notes.borrow().clone()
+    }
+
+    /// Ends the case that runs, and reports it to the search.
+    pub fn end(&self, end: &CaseEnd) {
+        outside(|| {
+            let Some(Running { number, case }) = self.running.borrow_mut().take() else {
+                return;
+            };
+            let CaseSource::Search(server) = &self.source else {
+                return;
+            };
+            let (choices, spans) = case.finish();
+            let end = end.clone();
+            let report = Report {
+                choices,
+                spans,
+                status: end.status,
+                place: end.place,
+                robustness: end.robustness,
+                covered: end.covered,
+            };
+            server.finish(number, report);
+        });
+    }
+}
+
+impl Drop for TestCases {
+    /// The search learns that this thread runs no more cases.
+    fn drop(&mut self) {
+        if let CaseSource::Search(server) = &self.source {
+            let unfinished = self.running.take().map(|running| running.case.values());
+            server.leave(unfinished);
+        }
+    }
+}
