@@ -13,10 +13,11 @@
 import atexit
 import os
 
+from ._property import Cases, property
 from ._simulator import Script, Simulator
 from ._swanilda import Error, Snapshot, __version__, close_all, forget_after_fork
 
-__all__ = ["Error", "Script", "Simulator", "Snapshot", "__version__"]
+__all__ = ["Cases", "Error", "Script", "Simulator", "Snapshot", "__version__", "property"]
 
 # The scripts of simulators that are still open clean up while Python can run them.
 atexit.register(close_all)

@@ -69,6 +69,10 @@ const ALONE: &str = "SWANILDA_TEST_ALONE";
 ///
 /// In a process of its own: what is freed beyond the border of a heap is counted for all threads of a process.
 #[test]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the variable is set by this test, for itself"
+)]
 fn every_scene_goes_on_as_the_first_time() {
     if std::env::var_os(ALONE).is_some() {
         parallel::map(&scenes(), |scene| on_a_large_stack(futures, scene.clone()));

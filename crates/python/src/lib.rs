@@ -6,6 +6,7 @@ mod arrays;
 mod batch;
 mod branches;
 mod callables;
+mod cases;
 mod console;
 mod convert;
 mod errors;
@@ -33,6 +34,8 @@ mod _swanilda {
     use crate::batch::Batch;
     #[pymodule_export]
     use crate::branches::Snapshot;
+    #[pymodule_export]
+    use crate::cases::Cases;
     #[pymodule_export]
     use crate::errors::Error;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! Proposes cases, and learns from what they report.
 //!
 //! First come the bounds of all values, then values at random. Where a test measures how far it is from failing (`robustness`), cases near
-//! the closest ones follow: simulated annealing, whose steps widen after progress and narrow without. Where lines of scripts are counted,
+//! the closest ones follow, by steps of all sizes: which size makes progress depends on how close they are. Where lines of scripts are counted,
 //! cases that reach new lines are varied as well. Values at random go on all the time.
 
 use std::collections::BTreeSet;
@@ -19,8 +19,9 @@ const WARM_UP: usize = 3 * BATCH;
 const ELITE: usize = 6;
 /// How many cases that reached new lines are varied.
 const CORPUS: usize = 64;
-/// The step of a variation, as a share of the domain: at first, at least, at most.
-const STEP: [f64; 3] = [0.2, 0.002, 0.5];
+/// The largest step of a variation, as a share of the domain, and how much smaller the smallest one is.
+const STEP: f64 = 0.4;
+const STEP_RANGE: f64 = 10_000.0;
 
 /// What is known of the cases so far.
 #[derive(Debug)]
@@ -33,7 +34,6 @@ pub struct Explorer {
     /// Those that reached new lines.
     corpus: Vec<Report>,
     covered: BTreeSet<u64>,
-    step: f64,
 }
 
 /// An exploration from that seed.
@@ -44,7 +44,6 @@ pub fn explore(seed: u64) -> Explorer {
         elite: Vec::new(),
         corpus: Vec::new(),
         covered: BTreeSet::new(),
-        step: STEP[0],
     }
 }
 
@@ -76,7 +75,7 @@ impl Explorer {
         if kind < 2 && !self.elite.is_empty() {
             // The closest is varied most.
             let at = self.elite.len() - 1 - self.random.late_below(self.elite.len());
-            return vary(&self.elite[at].choices, self.step, &mut self.random);
+            return vary(&self.elite[at].choices, &mut self.random);
         }
         if kind == 2 && !self.corpus.is_empty() {
             // The latest went furthest.
@@ -88,17 +87,9 @@ impl Explorer {
 
     /// Learns from cases that have passed.
     pub fn learn(&mut self, reports: &[Report]) {
-        let closest = |elite: &[Report]| elite.first().map_or(f64::INFINITY, |r| r.robustness);
-        let before = closest(&self.elite);
         for report in reports.iter().filter(|r| r.status == Status::Passed) {
             self.learn_one(report);
         }
-        let is_progress = closest(&self.elite) < before;
-        self.step *= if is_progress { 1.5 } else { 0.85 };
-        if self.step < STEP[1] {
-            self.step = STEP[0];
-        }
-        self.step = self.step.min(STEP[2]);
     }
 
     fn learn_one(&mut self, report: &Report) {
@@ -126,8 +117,9 @@ impl Explorer {
     }
 }
 
-/// Values near those of a case: about one in three moves by a step.
-fn vary(choices: &[Choice], step: f64, random: &mut Random) -> Vec<Value> {
+/// Values near those of a case: about one in three moves, all by steps of about one size.
+fn vary(choices: &[Choice], random: &mut Random) -> Vec<Value> {
+    let step = STEP * libm::pow(STEP_RANGE, -random.share());
     let share = (1.0 / choices.len().max(1) as f64).max(0.35);
     let moved = |choice: &Choice| {
         if random.share() >= share {

@@ -53,7 +53,9 @@ impl KnownFailure {
         json!({ "test": self.test, "message": self.message, "choices": as_json(&self.choices) })
     }
 
-    fn read(json: &Json) -> Option<Self> {
+    /// The failure that a file with that text is about; None when it is none.
+    pub fn read(text: &[u8]) -> Option<Self> {
+        let json: Json = serde_json::from_slice(text).ok()?;
         let text = |name: &str| Some(json.get(name)?.as_str()?.to_owned());
         Some(Self {
             test: text("test")?,
@@ -85,7 +87,7 @@ impl Failures {
         let file = self.file(test);
         let is_small = |file: &Path| fs::metadata(file).is_ok_and(|data| data.len() <= MAX_SIZE);
         let text = is_small(&file).then(|| fs::read(&file).ok())??;
-        let failure = KnownFailure::read(&serde_json::from_slice(&text).ok()?)?;
+        let failure = KnownFailure::read(&text)?;
         // Two tests may share a file's name, if rarely.
         (failure.test == test).then_some(failure)
     }

@@ -332,3 +332,32 @@ fn choices_are_limited() {
     }
     assert_eq!(count, 10_000);
 }
+
+/// How many cases it takes in the median to come within a ten-thousandth of the domain in each of two values.
+#[test]
+fn few_cases_lead_far() {
+    let test: Test = |case| {
+        let (x, y) = (float(case, -100.0, 100.0), float(case, 0.0, 1.0));
+        let distance = libm::fabs(x - 73.5) / 200.0 + libm::fabs(y - 0.123);
+        let status = if distance < 1e-4 {
+            Status::Failed
+        } else {
+            Status::Passed
+        };
+        (status, "close", distance - 1e-4, Vec::new())
+    };
+    let cases = |seed| {
+        let found = found(
+            test,
+            &Settings {
+                seed,
+                ..settings(5000)
+            },
+        );
+        assert!(found.failing.is_some(), "seed {seed}: {:?}", found.closest);
+        found.cases
+    };
+    let mut counts: Vec<_> = (0..9).map(cases).collect();
+    counts.sort_unstable();
+    assert!(counts[4] < 1000, "{counts:?}");
+}

@@ -13,6 +13,8 @@ const WIDTH: u32 = 900;
 const HEIGHT: u32 = 180;
 /// Pixels of the square of two choices.
 const SIDE: u32 = 420;
+/// With fewer cases there is nothing to see.
+const MIN_SAMPLES: usize = 20;
 /// Signals in one picture; more would not be looked at.
 const MAX_SIGNALS: usize = 12;
 
@@ -82,20 +84,20 @@ pub(crate) fn of_samples(samples: &[Sample]) -> Option<String> {
     Some(text)
 }
 
-/// The two choices with most influence on the robustness: by the correlation of their ranks with it; the first two without.
+/// The two choices with most influence on the robustness, of those that at least half of the cases have.
 fn axes(samples: &[&Sample]) -> Option<(usize, usize)> {
-    let count = samples.iter().map(|sample| sample.choices.len()).max()?;
-    if count < 2 || samples.len() < 4 {
+    if samples.len() < MIN_SAMPLES {
         return None;
     }
+    let mut counts: Vec<_> = samples.iter().map(|sample| sample.choices.len()).collect();
+    counts.sort_unstable();
+    let count = counts[counts.len() / 2];
     let mut numbers: Vec<_> = (0..count)
         .map(|choice| (influence(samples, choice), choice))
         .collect();
     numbers.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    Some((
-        numbers[0].1.min(numbers[1].1),
-        numbers[0].1.max(numbers[1].1),
-    ))
+    let (first, second) = (numbers.first()?.1, numbers.get(1)?.1);
+    Some((first.min(second), first.max(second)))
 }
 
 /// The share of the spread of robustness that averages over ten parts of the choice explain (the correlation ratio).

@@ -102,6 +102,7 @@ pub(super) mod sample {
             line: Some(3),
             repetition: 0,
             seed: 7,
+            property: None,
         };
         let mut outcome = Outcome::new(Arc::new(test), status, message);
         (outcome.time, outcome.steps, outcome.wall) = (0.5, 10, Duration::from_millis(1500));
