@@ -10415,6 +10415,11 @@ class _swanilda_config_window:
         """Shows the present values.
         """
 
+class _swanilda_faults:
+    def at(self, time: Any | None = ..., fn: Any | None = ..., /) -> Any:
+        """calls a function when the simulation reaches that time
+        """
+
 class _swanilda_oldmotion:
     def joints(self, joints: Any | None = ..., targets: Any | None = ..., velocity: Any | None = ..., acceleration: Any | None = ..., angleCoefficient: Any | None = ..., /) -> Any:
         """sim.moveToJointPositions
@@ -10828,6 +10833,8 @@ class Requires:
     def require(self, name: Literal["swanilda.config.schema"], script: int | None = None) -> _swanilda_config_schema: ...
     @overload
     def require(self, name: Literal["swanilda.config.window"], script: int | None = None) -> _swanilda_config_window: ...
+    @overload
+    def require(self, name: Literal["swanilda.faults"], script: int | None = None) -> _swanilda_faults: ...
     @overload
     def require(self, name: Literal["swanilda.oldmotion"], script: int | None = None) -> _swanilda_oldmotion: ...
     @overload

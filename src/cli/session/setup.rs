@@ -70,6 +70,9 @@ pub(in crate::cli) struct Setup {
     /// Lua file to load as an add-on; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
+    /// Lua file with faults of sensors, messages, motors, bodies and programs, such as `faults.noise('/script', 'sim.readProximitySensor', 0.02)`
+    #[arg(long, value_name = "FILE")]
+    faults: Option<PathBuf>,
     /// Convert Lua files written for V-REP or early CoppeliaSim, as scripts in old scenes are: old names, threads, changed meanings
     #[arg(long)]
     compat: bool,
@@ -98,6 +101,15 @@ struct Source {
 }
 
 impl Source {
+    /// The add-on that is made of a file of faults; its lines keep their numbers.
+    fn of_faults(self) -> Self {
+        let (before, after) = ("require('swanilda.faults')(function() ", "\nend)\n");
+        Self {
+            code: [before.as_bytes(), &self.code, after.as_bytes()].concat(),
+            ..self
+        }
+    }
+
     fn add(&self, sim: &mut Simulator, kind: ScriptKind) -> Result<ScriptRef, Error> {
         sim.add_script_of_file(kind, &self.name, &self.code, Some(&self.path))
     }
@@ -131,7 +143,11 @@ impl Setup {
             .addon
             .iter()
             .map(|path| read(path, &permissions).map(|source| self.up_to_date(source)));
-        let add_ons = add_ons.collect::<Result<_, _>>()?;
+        let mut add_ons = add_ons.collect::<Result<Vec<_>, _>>()?;
+        let faults = self.faults.iter().map(|path| read(path, &permissions));
+        for source in faults {
+            add_ons.push(source?.of_faults());
+        }
         let scene = scene
             .map(|path| read_scene(path, bases(self.fix_base), &permissions))
             .transpose()?

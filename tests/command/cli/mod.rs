@@ -7,6 +7,7 @@
 mod branches;
 mod cache;
 mod commands;
+mod faults_of_runs;
 #[cfg(target_os = "linux")]
 mod full_disk;
 mod graphs;
