@@ -5,7 +5,7 @@ use super::*;
 const STEPS: usize = 6;
 
 /// A controller that prints what it reads in each step: its number.
-const SCENE: &str = r#"sim = require 'sim'
+const SCENE: &str = r"sim = require 'sim'
 function sysCall_init()
     local script = sim.createScript(sim.scripttype_simulation, [[
         sim = require 'sim'
@@ -14,7 +14,7 @@ function sysCall_init()
         function sysCall_actuation() n = n + 1 print(read()) end
     ]])
     sim.setObjectAlias(script, 'controller')
-end"#;
+end";
 
 fn with_faults(faults: &str) -> (Output, String) {
     let scene = Scene::new(SCENE);
