@@ -248,6 +248,23 @@ fn a_case_that_cannot_be_undone_is_named() {
     let (exit, text) = in_folder(code, &["test"]);
     assert_eq!(exit, 1);
     assert!(text.contains("a branch does not undo the file"), "{text}");
+    assert!(text.contains("fresh = true"), "{text}");
+}
+
+/// In simulators of their own cases may open what they like, and are simplified as any other.
+#[test]
+fn fresh_cases_may_open_files() {
+    let code = "t.property('x', {cases = 30, fresh = true}, function(g)
+        f = io.open(t.file('a_test.lua'))
+        t.always(function() return true end)
+        t.step()
+        assert.is_true(g.integer(0, 100) < LIMIT, 'too large')
+    end)";
+    let (exit, text) = in_folder(&code.replace("LIMIT", "101"), &["test"]);
+    assert_eq!(exit, 0, "{text}");
+    let (exit, text) = in_folder(&code.replace("LIMIT", "37"), &["test"]);
+    assert_eq!(exit, 1);
+    assert!(text.contains("-> 37"), "{text}");
 }
 
 /// A case that hangs is a failure with its values, and is tried first the next time.

@@ -161,8 +161,10 @@ fn no_case() -> PyErr {
 impl Drop for Cases {
     /// The search ends, whether it has come to its end or not.
     fn drop(&mut self) {
-        let unfinished = self.running.take().map(|(_, case)| case.values());
-        self.server.leave(unfinished);
+        if let Some((_, case)) = self.running.take() {
+            self.server.abandon(case.values());
+        }
+        self.server.leave();
         self.server.close();
     }
 }

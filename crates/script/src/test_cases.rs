@@ -15,6 +15,8 @@ pub enum CaseSource {
     Single(Plan),
     /// Those of a search, each of which is undone.
     Search(Arc<Server>),
+    /// One of a search, with its number, in a simulator of its own.
+    OneOf(Arc<Server>, usize, Plan),
 }
 
 /// A value that a case has drawn, for people.
@@ -71,13 +73,19 @@ impl TestCases {
         matches!(self.source, CaseSource::Search(_))
     }
 
+    /// Whether the failure of a case is that of the test, rather than reported to a search.
+    pub fn is_single(&self) -> bool {
+        matches!(self.source, CaseSource::Single(_))
+    }
+
     /// Begins the next case, waiting for one; false at the end, or when `is_stopped`.
     pub fn begin(&self, is_stopped: impl Fn() -> bool) -> bool {
         outside(|| {
             let next = match &self.source {
-                CaseSource::Single(_) if self.is_used.replace(true) => None,
-                CaseSource::Single(plan) => Some((0, plan.clone())),
                 CaseSource::Search(server) => server.next(is_stopped),
+                _ if self.is_used.replace(true) => None,
+                CaseSource::Single(plan) => Some((0, plan.clone())),
+                CaseSource::OneOf(_, number, plan) => Some((*number, plan.clone())),
             };
             let case = next.map(|(number, plan)| Running {
                 number,
@@ -129,7 +137,7 @@ impl TestCases {
             let Some(Running { number, case }) = self.running.borrow_mut().take() else {
                 return;
             };
-            let CaseSource::Search(server) = &self.source else {
+            let Some(server) = self.server() else {
                 return;
             };
             let (choices, spans) = case.finish();
@@ -147,12 +155,21 @@ impl TestCases {
     }
 }
 
+impl TestCases {
+    fn server(&self) -> Option<&Server> {
+        match &self.source {
+            CaseSource::Single(_) => None,
+            CaseSource::Search(server) | CaseSource::OneOf(server, ..) => Some(server),
+        }
+    }
+}
+
 impl Drop for TestCases {
-    /// The search learns that this thread runs no more cases.
+    /// The search learns that a case has not come to its end.
     fn drop(&mut self) {
-        if let CaseSource::Search(server) = &self.source {
-            let unfinished = self.running.take().map(|running| running.case.values());
-            server.leave(unfinished);
+        let running = self.running.take();
+        if let (Some(server), Some(running)) = (self.server(), running) {
+            server.abandon(running.case.values());
         }
     }
 }

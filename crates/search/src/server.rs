@@ -42,7 +42,7 @@ struct State {
     /// How many threads run cases.
     workers: usize,
     is_closed: bool,
-    /// What a case had chosen whose thread has gone without its report.
+    /// What a case had chosen that was abandoned.
     unfinished: Option<Vec<Value>>,
 }
 
@@ -89,17 +89,19 @@ impl Server {
         (self.on_case)();
     }
 
-    /// A thread that runs cases ends; `unfinished`: what a case had chosen that it was given and has not reported.
-    pub fn leave(&self, unfinished: Option<Vec<Value>>) {
-        let mut state = self.lock();
-        state.workers -= 1;
-        if state.unfinished.is_none() {
-            state.unfinished = unfinished;
-        }
+    /// A case will not be reported that had chosen these values: there is no result.
+    pub fn abandon(&self, values: Vec<Value>) {
+        self.lock().unfinished.get_or_insert(values);
         self.changed.notify_all();
     }
 
-    /// What the first case had chosen that was left unfinished.
+    /// A thread that runs cases ends.
+    pub fn leave(&self) {
+        self.lock().workers -= 1;
+        self.changed.notify_all();
+    }
+
+    /// What the first case had chosen that was abandoned.
     pub fn unfinished(&self) -> Option<Vec<Value>> {
         self.lock().unfinished.clone()
     }

@@ -231,7 +231,7 @@ fn found_by(threads: usize, test: Test) -> Found {
                 while let Some((number, plan)) = server.next(|| false) {
                     server.finish(number, run(test, plan));
                 }
-                server.leave(None);
+                server.leave();
             });
         }
         let mut evaluate = &server;
@@ -252,13 +252,14 @@ fn a_case_that_is_left_unfinished_ends_the_search() {
     std::thread::scope(|scope| {
         scope.spawn(|| {
             assert!(server.next(|| false).is_some());
-            server.leave(Some(Vec::new()));
+            server.abandon(Vec::new());
+            server.leave();
         });
         scope.spawn(|| {
             while let Some((number, plan)) = server.next(|| false) {
                 server.finish(number, run(|_| verdict(true), plan));
             }
-            server.leave(None);
+            server.leave();
         });
         let mut evaluate = &server;
         let found = search(&settings(100), &mut evaluate, &mut || false, &mut |_, _| {});

@@ -330,6 +330,7 @@ fn property(options: &Data) -> PropertyOptions {
     PropertyOptions {
         cases: count("cases"),
         shrinks: count("shrinks"),
+        is_fresh: options.field("fresh").is_some_and(Data::truthy),
     }
 }
 

@@ -349,7 +349,7 @@ function cases.finishCase()
     t._checkErrors()
 end
 
-cases.robustness = temporal.robustness
+cases.robustness, cases.forget = temporal.robustness, temporal.forget
 
 -- Called by the runner to test a property.
 function t._runProperty(property, explain) properties.run(property, cases, explain) end

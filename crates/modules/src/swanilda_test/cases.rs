@@ -31,14 +31,17 @@ fn cases(cx: &Cx) -> Result<Rc<TestCases>> {
 
 /// Begins the next case of the property; waits for it.
 ///
-/// @return kind 'search': a case to be undone; 'single': the only one; nil: there are no more
+/// @return kind 'search': a case to be undone; 'one': one of a search that is not; 'single': the only one, whose failure is that of the test;
+/// nil: there are no more
 #[api("swanilda.test.beginCase")]
 fn begin_case(cx: &mut Cx) -> Result<Option<String>> {
     let cases = cases(cx)?;
     let kind = if cases.are_undone() {
         "search"
-    } else {
+    } else if cases.is_single() {
         "single"
+    } else {
+        "one"
     };
     let has_begun = cases.begin(|| cx.is_interrupted());
     Ok(has_begun.then(|| kind.to_owned()))

@@ -16,7 +16,7 @@ mod values;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::Config;
@@ -46,6 +46,8 @@ pub struct PropertyOptions {
     pub cases: Option<usize>,
     /// Runs that simplifying a failing one may take.
     pub shrinks: Option<usize>,
+    /// Whether each has a simulator of its own, instead of being undone.
+    pub is_fresh: bool,
 }
 
 /// How `swanilda search` looks for failing cases.
@@ -147,7 +149,7 @@ impl Property<'_> {
                 std::thread::Builder::new()
                     .name("cases".into())
                     .stack_size(Simulator::STACK_SIZE)
-                    .spawn_scoped(scope, move || self.run_cases(server))
+                    .spawn_scoped(scope, move || self.run_cases(&server))
                     .expect("the system has a thread for the cases")
             };
             let threads: Vec<_> = (0..jobs).map(spawn).collect();
@@ -203,8 +205,27 @@ impl Property<'_> {
         Some(self.failures()?.load(&self.test.id())?.choices)
     }
 
-    /// Runs cases until there are no more.
-    fn run_cases(&self, server: Arc<Server>) -> Outcome {
+    /// Runs cases until there are no more. The outcome of a simulator that is not good by itself, or of the last one.
+    fn run_cases(&self, server: &Arc<Server>) -> Outcome {
+        let _leaving = Leaving(server);
+        if !self.test.property.unwrap_or_default().is_fresh {
+            return self.run_one(CaseSource::Search(Arc::clone(server)));
+        }
+        let mut outcome = Outcome::new(Arc::clone(self.test), Status::Passed, "");
+        let is_stopped = || self.stop.load(Ordering::Relaxed);
+        while let Some((number, plan)) = server.next(is_stopped) {
+            outcome = self.run_one(CaseSource::OneOf(Arc::clone(server), number, plan));
+            if outcome.is_bad() {
+                // It has not come to its case, or not to the end of it.
+                server.abandon(Vec::new());
+                break;
+            }
+        }
+        outcome
+    }
+
+    /// Runs the property in a simulator for cases of a search.
+    fn run_one(&self, source: CaseSource) -> Outcome {
         let config = Config {
             record_failures: None,
             captures: None,
@@ -215,7 +236,7 @@ impl Property<'_> {
         let counts_lines = self.config.search.is_some();
         let session =
             Session::with_lines(&config, file, seed, stop, &Tape::default(), counts_lines);
-        self.run_in(session, CaseSource::Search(server)).0
+        self.run_in(session, source).0
     }
 
     /// Runs the property by that source of cases; its outcome, and the values that the last case noted.
@@ -307,6 +328,15 @@ impl Property<'_> {
         };
         // Without it, the case is only not tried first the next time.
         self.failures()?.save(&failure).ok()
+    }
+}
+
+/// A thread that runs cases leaves the search, however it ends.
+struct Leaving<'a>(&'a Server);
+
+impl Drop for Leaving<'_> {
+    fn drop(&mut self) {
+        self.0.leave();
     }
 }
 

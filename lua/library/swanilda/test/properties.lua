@@ -13,7 +13,7 @@ local depth = 0 -- of generators within each other
 
 local DISCARDED = setmetatable({}, { __tostring = function() return 'the case is discarded' end })
 local MAX_LENGTH <const> = 100 -- of a list, unless its maximum says otherwise
-local OPTIONS <const> = { cases = 'number', shrinks = 'number' }
+local OPTIONS <const> = { cases = 'number', shrinks = 'number', fresh = 'boolean' }
 
 ---------------------------------------------------------------- values for people
 
@@ -252,19 +252,24 @@ local function tried(body, fixture, explain)
     return ok, failure
 end
 
--- A case of a search; it is undone, whatever becomes of it.
-local function searched(body, fixture, explain)
-    local _, failure = native.branch(function()
-        local ok, failure = tried(body, fixture, explain)
-        local robustness = fixture.robustness()
-        if ok then
-            native.endCase('passed', '', robustness)
-        elseif failure == DISCARDED then
-            native.endCase('discarded', '', math.huge)
-        else
-            native.endCase('failed', placeOf(failure), robustness < 0 and robustness or -math.huge)
-        end
-    end)
+-- Runs a case of a search, and reports how it has ended.
+local function reported(body, fixture, explain)
+    local ok, failure = tried(body, fixture, explain)
+    local robustness = fixture.robustness()
+    if ok then
+        native.endCase('passed', '', robustness)
+    elseif failure == DISCARDED then
+        native.endCase('discarded', '', math.huge)
+    else
+        native.endCase('failed', placeOf(failure), robustness < 0 and robustness or -math.huge)
+    end
+end
+
+-- The same; it is undone, whatever becomes of it.
+local function undone(...)
+    local arguments = table.pack(...)
+    local ok, result, failure = pcall(native.branch, function() reported(table.unpack(arguments, 1, arguments.n)) end)
+    if not ok then error(tostring(result) .. ' Or each case has a simulator of its own: t.property(name, {fresh = true}, ...).', 0) end
     if failure then error(failure, 0) end
 end
 
@@ -272,13 +277,18 @@ end
 function M.run(body, fixture, explain)
     local kind = native.beginCase()
     while kind == 'search' do
-        searched(body, fixture, explain)
+        undone(body, fixture, explain)
         kind = native.beginCase()
     end
-    if kind ~= 'single' then return end
-    local ok, failure = tried(body, fixture, explain)
-    native.endCase('passed', '', math.huge)
-    if not ok and failure ~= DISCARDED then error(failure, 0) end
+    if kind == 'one' then
+        reported(body, fixture, explain)
+        -- What is left of it is not the test's.
+        fixture.forget()
+    elseif kind == 'single' then
+        local ok, failure = tried(body, fixture, explain)
+        native.endCase('passed', '', math.huge)
+        if not ok and failure ~= DISCARDED then error(failure, 0) end
+    end
 end
 
 M.shown = shown

@@ -192,6 +192,9 @@ function M.finish()
     end
 end
 
+--- Ends the watch of all.
+function M.forget() monitors = {} end
+
 --- Leaves what was sampled for the report.
 function M.leave()
     for _, monitor in ipairs(monitors) do leave(monitor.name, monitor.trace, monitor.robustness) end
