@@ -13,6 +13,7 @@ is brought back before each case. Strategies of Hypothesis, given by name, are d
 
 from __future__ import annotations
 
+import builtins
 import functools
 import inspect
 import linecache
@@ -30,7 +31,6 @@ from . import _swanilda
 from ._simulator import Simulator
 
 T = TypeVar("T")
-Range = "float | Sequence[float]"
 
 _FAILURES = os.path.join(".swanilda", "failures")
 _SEED = 123456
@@ -71,7 +71,7 @@ class Cases:
         line = linecache.getline(*frame).strip()
         self._notes.append(f"{frame[1]}: {line}  -> {text}")
 
-    def float(self, lo: float, hi: float, simplest: float | None = None) -> float:
+    def float(self, lo: builtins.float, hi: builtins.float, simplest: builtins.float | None = None) -> builtins.float:
         """A number from `lo` to `hi`; simplest where it is nearest to zero, unless said otherwise."""
         with self._part() as made:
             _check_bounds(lo, hi)
@@ -109,17 +109,17 @@ class Cases:
             made(value)
         return value
 
-    def subset(self, elements: Sequence[T]) -> list[T]:
+    def subset(self, elements: Sequence[T]) -> builtins.list[T]:
         """Some of them, in order."""
         with self._part() as made:
             value = [element for element in elements if self._native.choose_integer(0, 1, 0) == 1]
             made(value)
         return value
 
-    def list(self, element: Callable[[], T], min: int = 0, max: int = 100) -> list[T]:
+    def list(self, element: Callable[[], T], min: int = 0, max: int = 100) -> builtins.list[T]:
         """What `element` draws, between `min` and `max` times."""
         with self._part() as made:
-            value: list[T] = []
+            value: builtins.list[T] = []
             more = True
             while more:
                 self._native.span(True)
@@ -138,10 +138,10 @@ class Cases:
             return self._native.choose_integer(0, 0, 0) == 1
         return self._native.follows(1 - 1 / (2 + (most - least) / 2))
 
-    def _within(self, value: Any) -> float:
-        return self.float(value[0], value[1]) if isinstance(value, Sequence) else float(value)
+    def _within(self, value: Any) -> builtins.float:
+        return self.float(value[0], value[1]) if isinstance(value, Sequence) else builtins.float(value)
 
-    def point(self, x: Any = 0.0, y: Any = 0.0, z: Any = 0.0) -> list[float]:
+    def point(self, x: Any = 0.0, y: Any = 0.0, z: Any = 0.0) -> builtins.list[builtins.float]:
         """`[x, y, z]` in metres; a pair is a range, a number is fixed."""
         with self._part() as made:
             value = [self._within(x), self._within(y), self._within(z)]
@@ -150,7 +150,7 @@ class Cases:
 
     def pose(
         self, x: Any = 0.0, y: Any = 0.0, z: Any = 0.0, roll: Any = 0.0, pitch: Any = 0.0, yaw: Any = 0.0
-    ) -> list[float]:
+    ) -> builtins.list[builtins.float]:
         """A pose `[x, y, z, qx, qy, qz, qw]`; angles in radians about the fixed axes x, y, z, in this order."""
         with self._part() as made:
             a, b, c = (self._within(angle) / 2 for angle in (roll, pitch, yaw))
@@ -165,7 +165,9 @@ class Cases:
             made(value)
         return value
 
-    def path(self, x: Any = 0.0, y: Any = 0.0, z: Any = 0.0, points: tuple[int, int] = (2, 6)) -> list[list[float]]:
+    def path(
+        self, x: Any = 0.0, y: Any = 0.0, z: Any = 0.0, points: tuple[int, int] = (2, 6)
+    ) -> builtins.list[builtins.list[builtins.float]]:
         """A list of points."""
         return self.list(lambda: self.point(x, y, z), points[0], points[1])
 
@@ -178,9 +180,9 @@ class Cases:
         """Shows a value with the case."""
         self._note(_frame_of_test(), f"{name} = {value!r}")
 
-    def robustness(self, value: float) -> None:
+    def robustness(self, value: builtins.float) -> None:
         """How far the case is from failing, such as a clearance; the least of a case leads the search."""
-        self._robustness = min(self._robustness, float(value))
+        self._robustness = min(self._robustness, builtins.float(value))
 
 
 def _check_bounds(lo: float, hi: float) -> None:
