@@ -1,4 +1,4 @@
-"""Properties: tests that run for many cases, whose values a search chooses and simplifies.
+"""Properties: tests that run for many cases, whose values a search chooses and shrinks.
 
     @swanilda.property(cases=200)
     def test_parks(g, simulator):
@@ -8,7 +8,7 @@
         assert distance > 0.05
 
 The same generators as in tests in Lua (docs/TESTING.md). A simulator among the arguments of the test, such as the fixture `simulator`,
-is brought back before each case. Strategies of Hypothesis, given by name, are drawn and simplified by Hypothesis instead.
+is brought back before each case. Strategies of Hypothesis, given by name, are drawn and shrunk by Hypothesis instead.
 """
 
 from __future__ import annotations
@@ -216,7 +216,7 @@ def property(
     """Makes a test run for many cases.
 
     The test gets its values from its argument `g` (`Cases`), or, for each strategy of Hypothesis that is given by name, as that argument.
-    `cases` are tried, until one fails; it is then simplified in at most `shrinks` runs, kept in `.swanilda/failures`, and tried first
+    `cases` are tried, until one fails; it is then shrunk in at most `shrinks` runs, kept in `.swanilda/failures`, and tried first
     the next time.
     """
 
@@ -242,7 +242,7 @@ def _by_search(test: Callable[..., Any], cases: int, shrinks: int, seed: int) ->
             return
         restore()
         native.repeat(failing)
-        _raise_failure(test, case, args, kwargs, f"failed in case {tried} of the search, simplified in {shrunk} runs:", failing)
+        _raise_failure(test, case, args, kwargs, f"failed in case {tried} of the search, shrunk in {shrunk} runs:", failing)
 
     run.__signature__ = _without(test, {"g"})  # type: ignore[attr-defined]
     return run

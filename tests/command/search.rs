@@ -48,7 +48,7 @@ fn controllers(version: &str, cases: &str) -> Vec<Value> {
 }
 
 #[test]
-fn bugs_of_controllers_are_found_and_simplified() {
+fn bugs_of_controllers_are_found_and_shrunk() {
     let found = controllers("broken", "400");
     assert_eq!(found.len(), 20);
     let missed: Vec<_> = found
@@ -86,7 +86,7 @@ end)";
 
 /// The simplest list, by whatever path it was found.
 #[test]
-fn a_failure_is_simplified_kept_and_tried_first() {
+fn a_failure_is_shrunk_kept_and_tried_first() {
     let folder = folder(SUM);
     let (code, text) = swanilda(folder.path(), &["test"]);
     assert_eq!(code, 1, "{text}");
@@ -251,7 +251,7 @@ fn a_case_that_cannot_be_undone_is_named() {
     assert!(text.contains("fresh = true"), "{text}");
 }
 
-/// In simulators of their own cases may open what they like, and are simplified as any other.
+/// In simulators of their own cases may open what they like, and are shrunk as any other.
 #[test]
 fn fresh_cases_may_open_files() {
     let code = "t.property('x', {cases = 30, fresh = true}, function(g)

@@ -21,7 +21,7 @@ def failure(test, *args):
     return error, "\n".join(getattr(error, "__notes__", [str(error)]))
 
 
-def test_a_failing_case_is_simplified_and_shown_with_its_lines():
+def test_a_failing_case_is_shrunk_and_shown_with_its_lines():
     @swanilda.property(cases=100)
     def small(g):
         elements = g.list(lambda: g.integer(0, 9), max=5)
@@ -30,7 +30,7 @@ def test_a_failing_case_is_simplified_and_shown_with_its_lines():
     error, text = failure(small)
     assert isinstance(error, AssertionError)
     assert "elements = g.list(lambda: g.integer(0, 9), max=5)  -> [6, 9]" in text
-    assert "simplified in" in text
+    assert "shrunk in" in text
 
 
 def test_a_failing_case_is_tried_first_the_next_time():

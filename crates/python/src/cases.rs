@@ -120,7 +120,7 @@ impl Cases {
         Ok(())
     }
 
-    /// What was found: cases, runs that simplifying took, and the choices of the simplest failing case or None.
+    /// What was found: cases, runs that shrinking took, and the choices of the simplest failing case or None.
     fn result(&mut self, py: Python<'_>) -> PyResult<(usize, usize, Option<Vec<Number>>)> {
         let thread = self.thread.take();
         let thread = thread.ok_or_else(|| PyRuntimeError::new_err("the result was taken"))?;
@@ -162,7 +162,7 @@ impl Drop for Cases {
     /// The search ends, whether it has come to its end or not.
     fn drop(&mut self) {
         if let Some((_, case)) = self.running.take() {
-            self.server.abandon(case.values());
+            self.server.give_up(case.values());
         }
         self.server.leave();
         self.server.close();

@@ -15,7 +15,7 @@ use super::coverage::LineCounts;
 use super::log::console::{Console, LogLine, OutputStream};
 use super::log::verbosity;
 use crate::options::Options;
-use crate::test_cases::TestCases;
+use crate::test_cases::{Signal, TestCases};
 use scene::object::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.
@@ -66,17 +66,6 @@ pub struct Trace {
     pub columns: Vec<String>,
     /// Time, then a value for each column.
     pub rows: Vec<Vec<f64>>,
-}
-
-/// A temporal property over time.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Signal {
-    /// The property.
-    pub name: String,
-    /// Time in seconds, and how far the condition is from false then; infinite where it is a boolean.
-    pub samples: Vec<(f64, f64)>,
-    /// How far the property is from false.
-    pub robustness: f64,
 }
 
 /// Tolerances of the comparison with a recorded trace.

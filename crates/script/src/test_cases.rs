@@ -28,6 +28,17 @@ pub struct Note {
     pub text: String,
 }
 
+/// A temporal property over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Signal {
+    /// The property.
+    pub name: String,
+    /// Time in seconds, and how far the condition is from false then; infinite where it is a boolean.
+    pub samples: Vec<(f64, f64)>,
+    /// How far the property is from false.
+    pub robustness: f64,
+}
+
 /// How a case ended, in the words of the test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseEnd {
@@ -169,7 +180,7 @@ impl Drop for TestCases {
     fn drop(&mut self) {
         let running = self.running.take();
         if let (Some(server), Some(running)) = (self.server(), running) {
-            server.abandon(running.case.values());
+            server.give_up(running.case.values());
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Looks for the case that makes a test fail, and for the simplest one that does.
 //!
 //! A test draws values from its [`Case`]: numbers within bounds, one after the other. The sequence of these *choices* is all that
-//! distinguishes one case from another, as in Hypothesis: a case is run again, changed and simplified by its choices, so that whatever a
+//! distinguishes one case from another, as in Hypothesis: a case is run again, changed and shrunk by its choices, so that whatever a
 //! test makes of them shrinks without code of its own. [`explore`] proposes [`Plan`]s of cases and learns from their [`Report`]s;
-//! [`shrink`] simplifies a failing one; [`Server`] hands plans to the threads that run them. The result depends on the seed and on the
+//! [`shrink`] shrinks a failing one; [`Server`] hands plans to the threads that run them. The result depends on the seed and on the
 //! budget in cases, not on the number of threads. Nothing here knows of simulators.
 
 mod case;

@@ -42,7 +42,7 @@ struct State {
     /// How many threads run cases.
     workers: usize,
     is_closed: bool,
-    /// What a case had chosen that was abandoned.
+    /// What a case had chosen that was given up.
     unfinished: Option<Vec<Value>>,
 }
 
@@ -90,7 +90,7 @@ impl Server {
     }
 
     /// A case will not be reported that had chosen these values: there is no result.
-    pub fn abandon(&self, values: Vec<Value>) {
+    pub fn give_up(&self, values: Vec<Value>) {
         self.lock().unfinished.get_or_insert(values);
         self.changed.notify_all();
     }
@@ -101,7 +101,7 @@ impl Server {
         self.changed.notify_all();
     }
 
-    /// What the first case had chosen that was abandoned.
+    /// What the first case had chosen that was given up.
     pub fn unfinished(&self) -> Option<Vec<Value>> {
         self.lock().unfinished.clone()
     }

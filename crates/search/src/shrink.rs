@@ -43,7 +43,7 @@ struct Shrinking<'a> {
     evaluate: &'a mut dyn Evaluate,
 }
 
-/// Simplifies a failing case with at most `budget` runs. Returns the simplest case that was found, and how many runs it took.
+/// Shrinks a failing case with at most `budget` runs. Returns the simplest case that was found, and how many runs it took.
 ///
 /// # Errors
 /// When nobody runs cases any more.
@@ -140,11 +140,11 @@ fn without_spans(report: &Report) -> Box<dyn Iterator<Item = Change> + '_> {
 }
 
 fn with_simplest_spans(report: &Report) -> Box<dyn Iterator<Item = Change> + '_> {
-    let is_simplified = |span: &&Span| {
+    let is_shrunk = |span: &&Span| {
         let choices = &report.choices[span.start..span.end];
         choices.len() > 1 && choices.iter().any(|choice| !choice.is_simplest())
     };
-    let spans = report.spans.iter().filter(is_simplified);
+    let spans = report.spans.iter().filter(is_shrunk);
     Box::new(spans.map(|span| Change::Simplest(*span)))
 }
 

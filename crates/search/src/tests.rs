@@ -252,7 +252,7 @@ fn a_case_that_is_left_unfinished_ends_the_search() {
     std::thread::scope(|scope| {
         scope.spawn(|| {
             assert!(server.next(|| false).is_some());
-            server.abandon(Vec::new());
+            server.give_up(Vec::new());
             server.leave();
         });
         scope.spawn(|| {

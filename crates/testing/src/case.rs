@@ -9,7 +9,8 @@ use super::excerpt::Excerpt;
 use super::golden::Comparison;
 use super::property::{PropertyOptions, PropertyReport};
 use script::coverage::LineCounts;
-use script::test_bench::{ConsoleLine, Golden, Signal};
+use script::test_bench::{ConsoleLine, Golden};
+use script::test_cases::Signal;
 
 /// One test of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -244,7 +244,7 @@ impl Reporter for Terminal {
         let closest = found.closest.as_ref().map(|report| report.robustness);
         let closest = closest.map_or_else(String::new, |least| format!(", robustness {least:.4}"));
         let failing = if found.failing.is_some() {
-            ", simplifying"
+            ", shrinking"
         } else {
             ""
         };

@@ -9,8 +9,7 @@ use super::super::{ApiError, ApiFn, Cx, Result, functions};
 use super::{bench, rows_of};
 use scene::Data;
 use script::coverage::{CountedText, LineCounts};
-use script::test_bench::Signal;
-use script::test_cases::{CaseEnd, TestCases};
+use script::test_cases::{CaseEnd, Signal, TestCases};
 use search::{Domain, Status, Value};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
@@ -98,7 +97,7 @@ fn number_of(text: &CountedText, line: usize) -> u64 {
 ///
 /// @param min the least
 /// @param max the greatest
-/// @param simplest what simplifying approaches
+/// @param simplest what shrinking approaches
 /// @return number
 #[api("swanilda.test.chooseInteger")]
 fn choose_integer(cx: &Cx, min: i64, max: i64, simplest: i64) -> Result<i64> {
@@ -113,7 +112,7 @@ fn choose_integer(cx: &Cx, min: i64, max: i64, simplest: i64) -> Result<i64> {
 ///
 /// @param min the least
 /// @param max the greatest
-/// @param simplest what simplifying approaches
+/// @param simplest what shrinking approaches
 /// @return number
 #[api("swanilda.test.chooseFloat")]
 fn choose_float(cx: &Cx, min: f64, max: f64, simplest: f64) -> Result<f64> {

@@ -34,7 +34,7 @@ pub use values::{Sample, ShownValue};
 
 /// Cases of a property that does not say how many.
 const CASES: usize = 100;
-/// Runs that simplifying may take, unless a property says how many.
+/// Runs that shrinking may take, unless a property says how many.
 const SHRINKS: usize = 300;
 /// Cases that are kept for a table and a picture.
 const MAX_SAMPLES: usize = 20_000;
@@ -44,7 +44,7 @@ const MAX_SAMPLES: usize = 20_000;
 pub struct PropertyOptions {
     /// How many are tried.
     pub cases: Option<usize>,
-    /// Runs that simplifying a failing one may take.
+    /// Runs that shrinking a failing one may take.
     pub shrinks: Option<usize>,
     /// Whether each has a simulator of its own, instead of being undone.
     pub is_fresh: bool,
@@ -77,7 +77,7 @@ pub struct PropertyReport {
     pub cases: usize,
     /// How many of them the property has discarded.
     pub discarded: usize,
-    /// Runs that simplifying took.
+    /// Runs that shrinking took.
     pub shrinks: usize,
     /// Values of the simplest failing case that cannot be simpler and still fail.
     pub chosen: usize,
@@ -217,7 +217,7 @@ impl Property<'_> {
             outcome = self.run_one(CaseSource::OneOf(Arc::clone(server), number, plan));
             if outcome.is_bad() {
                 // It has not come to its case, or not to the end of it.
-                server.abandon(Vec::new());
+                server.give_up(Vec::new());
                 break;
             }
         }

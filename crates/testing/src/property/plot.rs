@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::values::Sample;
 use format::plot::{drawable, label, load_font, range, thinned};
-use script::test_bench::Signal;
+use script::test_cases::Signal;
 
 /// Pixels.
 const WIDTH: u32 = 900;

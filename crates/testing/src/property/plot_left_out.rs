@@ -1,7 +1,7 @@
 //! In the place of pictures of properties, in a build without them.
 
 use super::values::Sample;
-use script::test_bench::Signal;
+use script::test_cases::Signal;
 
 pub(crate) fn of_signals(_: &[Signal]) -> Option<String> {
     None

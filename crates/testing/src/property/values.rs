@@ -95,7 +95,7 @@ pub(super) fn shown(file: &Path, notes: &[Note]) -> Vec<ShownValue> {
 pub(super) fn explained(report: &PropertyReport, found: &Found) -> String {
     let plural = |count: usize| if count == 1 { "" } else { "s" };
     let mut text = format!(
-        "\n\nfailed in case {} of the search, simplified in {} run{}:\n",
+        "\n\nfailed in case {} of the search, shrunk in {} run{}:\n",
         found.cases,
         found.shrinks,
         plural(found.shrinks)

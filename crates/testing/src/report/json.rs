@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use super::parts;
 use crate::{Excerpt, Outcome, PropertyReport, ShownValue, Status, Summary, TestCase};
-use script::test_bench::{ConsoleLine, Signal};
+use script::test_bench::ConsoleLine;
+use script::test_cases::Signal;
 
 /// The first line: how many tests will run.
 pub fn begin(tests: &[impl AsRef<TestCase>]) -> String {

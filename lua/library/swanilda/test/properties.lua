@@ -1,7 +1,7 @@
 --[[
 Properties: tests that run for many cases, whose values a search chooses. Internal: the generators are described in docs/TESTING.md.
 
-Every value comes from choices of the runner (`native.chooseInteger`, `native.chooseFloat`), so that a case can be repeated and simplified
+Every value comes from choices of the runner (`native.chooseInteger`, `native.chooseFloat`), so that a case can be repeated and shrunk
 without code of its generators. Generators nest; what the outermost one returns is noted with its line.
 ]]
 
