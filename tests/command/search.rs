@@ -251,6 +251,25 @@ fn a_case_that_cannot_be_undone_is_named() {
     assert!(text.contains("fresh = true"), "{text}");
 }
 
+/// What ran in cases that were undone has run.
+#[test]
+fn lines_of_cases_are_covered() {
+    let code = "local pid = require 'pid' t.property('x', {cases = 20, fresh = FRESH}, function(g) pid.of(g.integer(-9, 9)) end)";
+    let module = "local M = {}\nfunction M.of(x)\n  if x < 0 then\n    return -1\n  end\n  if x > 99 then\n    return 2\n  end\n  return 1\nend\nreturn M\n";
+    for fresh in ["false", "true"] {
+        let folder = folder(&code.replace("FRESH", fresh));
+        std::fs::write(folder.path().join("pid.lua"), module).expect("a file");
+        let (exit, text) = swanilda(folder.path(), &["test", "--coverage"]);
+        assert_eq!(exit, 0, "{text}");
+        let line = text.lines().find(|line| line.starts_with("pid.lua"));
+        let words: Vec<_> = line
+            .expect("the module is counted")
+            .split_whitespace()
+            .collect();
+        assert_eq!(words, ["pid.lua", "8", "7", "87.5", "7"], "fresh: {fresh}");
+    }
+}
+
 /// In simulators of their own cases may open what they like, and are shrunk as any other.
 #[test]
 fn fresh_cases_may_open_files() {

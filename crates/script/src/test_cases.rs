@@ -5,6 +5,7 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use crate::coverage::LineCounts;
 use heap::outside;
 use search::{Case, Domain, Plan, Report, Server, Status, Value};
 
@@ -58,6 +59,8 @@ pub struct TestCases {
     source: CaseSource,
     running: RefCell<Option<Running>>,
     notes: RefCell<Vec<Note>>,
+    /// The lines that ran in cases.
+    line_counts: RefCell<LineCounts>,
     /// The single case has been begun.
     is_used: Cell<bool>,
 }
@@ -75,6 +78,7 @@ impl TestCases {
             source,
             running: RefCell::default(),
             notes: RefCell::default(),
+            line_counts: RefCell::default(),
             is_used: Cell::default(),
         }
     }
@@ -140,6 +144,16 @@ impl TestCases {
     /// The values that were noted since the case has begun.
     pub fn notes(&self) -> Vec<Note> {
         self.notes.borrow().clone()
+    }
+
+    /// Keeps what ran in a case, which may be undone.
+    pub fn add_line_counts(&self, counts: &LineCounts) {
+        outside(|| self.line_counts.borrow_mut().merge(counts.clone()));
+    }
+
+    /// Hands over the lines that ran in cases.
+    pub fn take_line_counts(&self) -> LineCounts {
+        self.line_counts.take()
     }
 
     /// Ends the case that runs, and reports it to the search.

@@ -15,6 +15,7 @@ use super::property::PropertyOptions;
 use super::recording::TestRecording;
 use scene::Data;
 use script::TestBench;
+use script::coverage::LineCounts;
 use script::test_bench::CompiledFile;
 use script::test_cases::{CaseSource, Note, TestCases};
 use search::Value;
@@ -120,10 +121,11 @@ impl Session {
             .replace(Some(Rc::new(TestCases::new(source))));
     }
 
-    /// What its last case has noted. It has no more cases.
-    pub(super) fn take_notes(&mut self) -> Vec<Note> {
+    /// What its last case has noted, and the lines that ran in its cases. It has no more.
+    pub(super) fn end_cases(&mut self) -> (Vec<Note>, LineCounts) {
         let cases = self.bench.cases.take();
-        cases.map(|cases| cases.notes()).unwrap_or_default()
+        let ended = cases.map(|cases| (cases.notes(), cases.take_line_counts()));
+        ended.unwrap_or_default()
     }
 
     /// Whether a file that was compiled before may be loaded: a capture has the text.

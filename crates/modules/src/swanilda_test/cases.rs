@@ -63,11 +63,13 @@ fn end_case(cx: &mut Cx, status: String, place: String, robustness: f64) -> Resu
         "failed" => Status::Failed,
         _ => Status::Discarded,
     };
+    let counts = cx.take_line_counts();
+    cases.add_line_counts(&counts);
     cases.end(&CaseEnd {
         status,
         place,
         robustness,
-        covered: covered(&cx.take_line_counts()),
+        covered: covered(&counts),
     });
     Ok(())
 }

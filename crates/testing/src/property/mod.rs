@@ -24,6 +24,7 @@ use super::captures::Captures;
 use super::case::{Outcome, Status, TestCase};
 use super::session::Session;
 use super::workers::CRASHED;
+use script::coverage::LineCounts;
 use script::test_bench::CompiledFile;
 use script::test_cases::CaseSource;
 use search::{
@@ -114,6 +115,8 @@ struct Searched {
     unfinished: Option<Vec<Value>>,
     /// The first outcome of a simulator that is not good by itself.
     broken: Option<Outcome>,
+    /// The lines that ran.
+    line_counts: LineCounts,
 }
 
 impl Property<'_> {
@@ -132,6 +135,7 @@ impl Property<'_> {
             report.count(found);
             report.samples = searched.samples;
         }
+        outcome.line_counts.merge(searched.line_counts);
         outcome
     }
 
@@ -162,13 +166,16 @@ impl Property<'_> {
                 let crashed = |_| Outcome::new(Arc::clone(self.test), Status::Error, CRASHED);
                 ended.unwrap_or_else(crashed)
             };
+            let mut line_counts = LineCounts::default();
             let ended = threads.into_iter().map(|thread| outcome(thread.join()));
+            let ended = ended.inspect(|outcome| line_counts.merge(outcome.line_counts.clone()));
             let broken = ended.filter(Outcome::is_bad).reduce(|first, _| first);
             Searched {
                 found,
                 samples: std::mem::take(&mut samples),
                 unfinished: server.unfinished(),
                 broken,
+                line_counts,
             }
         })
     }
@@ -214,7 +221,9 @@ impl Property<'_> {
         let mut outcome = Outcome::new(Arc::clone(self.test), Status::Passed, "");
         let is_stopped = || self.stop.load(Ordering::Relaxed);
         while let Some((number, plan)) = server.next(is_stopped) {
+            let before = std::mem::take(&mut outcome.line_counts);
             outcome = self.run_one(CaseSource::OneOf(Arc::clone(server), number, plan));
+            outcome.line_counts.merge(before);
             if outcome.is_bad() {
                 // It has not come to its case, or not to the end of it.
                 server.give_up(Vec::new());
@@ -233,7 +242,7 @@ impl Property<'_> {
         };
         let (file, stop) = (&self.test.file, Arc::clone(self.stop));
         let seed = self.test.seed;
-        let counts_lines = self.config.search.is_some();
+        let counts_lines = self.config.search.is_some() || self.config.coverage.is_some();
         let session =
             Session::with_lines(&config, file, seed, stop, &Tape::default(), counts_lines);
         self.run_in(session, source).0
@@ -248,10 +257,12 @@ impl Property<'_> {
             return (Outcome { test, ..*broken }, Vec::new());
         }
         let mut outcome = session.run(self.test);
-        let values = values::shown(&self.test.file, &session.take_notes());
+        let (notes, line_counts) = session.end_cases();
+        let values = values::shown(&self.test.file, &notes);
         session.finish(&mut outcome);
         session.note_capture(&mut outcome);
         session.take_line_counts(&mut outcome);
+        outcome.line_counts.merge(line_counts);
         (outcome, values)
     }
 
