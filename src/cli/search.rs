@@ -56,7 +56,7 @@ pub(super) fn search(args: &Args) -> ExitCode {
 fn run(args: &Args, config: &Config) -> Result<u8, String> {
     let reports = &args.common.reports;
     let summary =
-        testing::run(config, &mut reports.reporter()).map_err(|error| error.to_string())?;
+        testing::run(config, &mut reports.reporter(true)).map_err(|error| error.to_string())?;
     reports.write(&summary)?;
     let outcomes = summary.outcomes.iter();
     let searched = outcomes.filter_map(|outcome| Some((outcome, outcome.property.as_ref()?)));

@@ -184,6 +184,10 @@ fn only_properties_are_searched() {
     let code = "it('is a test', function() error('it ran') end)";
     let (exit, text) = in_folder(code, &["search", "--cases", "5"]);
     assert_eq!(exit, 5, "{text}");
+    assert!(
+        text.contains("no properties found: t.property makes them"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -149,7 +149,7 @@ pub(super) fn test(args: &Args) -> ExitCode {
 }
 
 fn run(args: &Args, config: &Config) -> Result<u8, String> {
-    let summary = testing::run(config, &mut args.common.reports.reporter())
+    let summary = testing::run(config, &mut args.common.reports.reporter(false))
         .map_err(|error| error.to_string())?;
     args.common.reports.write(&summary)?;
     if let (Some(coverage), Some(file)) = (&summary.coverage, &config.coverage) {

@@ -62,8 +62,8 @@ impl ReportArgs {
         self.tap || self.json
     }
 
-    /// Output while the tests run.
-    pub(in crate::cli) fn reporter(&self) -> Reports {
+    /// Output while the tests run; `is_search`: only properties.
+    pub(in crate::cli) fn reporter(&self, is_search: bool) -> Reports {
         let stream = if self.tap {
             Some(Stream::Tap(0))
         } else {
@@ -76,6 +76,7 @@ impl ReportArgs {
             color: self.color,
             durations: self.durations,
             on_stderr: stream.is_some(),
+            is_search,
         };
         Reports {
             terminal: (!is_silent).then(|| Terminal::new(options)),

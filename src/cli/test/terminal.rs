@@ -26,6 +26,8 @@ pub(super) struct TerminalOptions {
     pub durations: usize,
     /// Standard output is taken by a report.
     pub on_stderr: bool,
+    /// Only properties run.
+    pub is_search: bool,
 }
 
 /// Shows how tests get on.
@@ -211,7 +213,7 @@ impl Terminal {
             ""
         };
         if summary.outcomes.is_empty() && !summary.interrupted {
-            return no_tests(summary.deselected);
+            return no_tests(summary.deselected, self.options.is_search);
         }
         format!(
             "{interrupted}{} in {:.2} s\n",
@@ -222,7 +224,10 @@ impl Terminal {
 }
 
 /// Advice when nothing was run.
-fn no_tests(deselected: usize) -> String {
+fn no_tests(deselected: usize, is_search: bool) -> String {
+    if is_search {
+        return "no properties found: t.property makes them, in files named *_test.lua or test_*.lua; --filter may leave them out\n".into();
+    }
     if deselected > 0 {
         return format!(
             "no tests run: --filter and --shard leave out all {deselected}; --list shows names\n"
