@@ -4,6 +4,7 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::linked_body::{BodyMotion, LinkedBody, Placement};
 use crate::mechanism::Mechanism;
+use crate::system::System;
 
 /// Position errors below this are never corrected, metres and radians.
 const MIN_TOLERANCE: f64 = 1e-9;
@@ -106,10 +107,11 @@ impl Mechanism {
         largest <= LARGE_ERROR
     }
 
-    /// Positions are corrected along the joints alone.
+    /// Positions are corrected along the joints alone, of which contacts may have needed no factor.
     fn leave_contacts_out(&mut self) {
-        if self.remove_contact_inertia()
-            && let Some(tree) = self.system.as_tree()
+        let was_there = self.remove_contact_inertia();
+        if let Some(tree) = self.system.as_tree()
+            && (was_there || !tree.is_factor())
         {
             tree.refactorize(&self.bodies);
         }

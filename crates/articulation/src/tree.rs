@@ -6,6 +6,8 @@
 //! without mass between them; a body that hangs on nothing has six free axes. The second pass, from the root to the tips, finds the velocities.
 //! A motor that tracks its velocity, and a limit, leave no free axis but impose a velocity.
 
+mod joint_space;
+
 use std::ops::Range;
 
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -16,6 +18,7 @@ use crate::linked_body::LinkedBody;
 use crate::spatial_inertia::{SpatialInertia, shifted_impulse, shifted_velocity};
 use crate::system::System;
 use crate::tree_growth::grown;
+pub(crate) use joint_space::JointSpace;
 
 /// The bodies of a tree, and what was found for them.
 pub(crate) struct Tree {
@@ -333,6 +336,12 @@ impl Link {
         }
         self.is_imposed = joint.imposes_velocity();
         self.passive_inertia = joint.soft_row().map_or(0.0, |(_, inertia)| inertia);
+    }
+
+    /// The axes along which nothing imposes a velocity.
+    fn free_axes(&self) -> impl Iterator<Item = &Axis> {
+        let count = if self.is_imposed { 0 } else { self.axes.len() };
+        self.axes[..count].iter()
     }
 
     /// Eliminates the free axes from the inertia.

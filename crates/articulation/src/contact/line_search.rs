@@ -1,8 +1,9 @@
 //! How far a step of Newton's method goes.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector3;
 
 use crate::contact::Row;
+use crate::contact::unknowns::Unknowns;
 use crate::mechanism::Mechanism;
 
 /// Largest number of evaluations.
@@ -11,27 +12,24 @@ const MAX_EVALUATIONS: usize = 30;
 const TOLERANCE: f64 = 1e-6;
 
 impl Mechanism {
-    /// Goes from the velocities before towards the present ones as far as the convex function decreases; whether that is all of the way.
-    pub(super) fn shorten_step(&mut self, before: &[Vector6<f64>]) -> bool {
-        let share = LineSearch::new(self, before).minimum();
+    /// Goes from the velocities before towards the present ones as far as the convex function decreases; whether that is all of the way. `before` and `now`: those at the
+    /// contacts.
+    pub(super) fn shorten_step(
+        &mut self,
+        unknowns: &mut impl Unknowns,
+        before: &[Vector3<f64>],
+        now: &mut [Vector3<f64>],
+    ) -> bool {
+        let search = LineSearch::new(self, unknowns.square_of_step(self), before, now);
+        let share = search.minimum();
         if share == 1.0 {
             return true;
         }
-        for (body, before) in self.bodies.iter_mut().zip(before) {
-            body.velocity = before + (body.velocity - before) * share;
+        unknowns.shorten(self, share);
+        for (velocity, before) in now.iter_mut().zip(before) {
+            *velocity = before + (*velocity - before) * share;
         }
         false
-    }
-
-    /// Twice the kinetic energy of velocities that the joints allow, with what is passive along their axes.
-    fn square(&self, velocity: impl Fn(usize) -> Vector6<f64>) -> f64 {
-        let of_body = |body: usize| {
-            let moved = velocity(body);
-            moved.dot(&self.bodies[body].momentum(&moved))
-        };
-        let moving = (0..self.bodies.len()).filter(|&body| self.bodies[body].is_dynamic());
-        let of_joints = self.joints.iter().map(|joint| joint.soft_square(&velocity));
-        moving.map(of_body).sum::<f64>() + of_joints.sum::<f64>()
     }
 }
 
@@ -44,26 +42,24 @@ struct LineSearch<'a> {
 }
 
 impl<'a> LineSearch<'a> {
-    fn new(mechanism: &'a Mechanism, before: &[Vector6<f64>]) -> Self {
-        let bodies = &mechanism.bodies;
-        let touching = mechanism
-            .contacts
-            .rows
-            .iter()
-            .filter(|row| row.least_compliance > 0.0);
-        let rows: Vec<(&Row, [Vector3<f64>; 2])> = touching
-            .map(|row| {
-                let from = row.velocity(|body| before[body]);
-                let to = row.velocity(|body| bodies[body].velocity);
-                (row, [from, to - from])
-            })
-            .collect();
+    fn new(
+        mechanism: &'a Mechanism,
+        inertia: f64,
+        before: &[Vector3<f64>],
+        now: &[Vector3<f64>],
+    ) -> Self {
+        let contacts = mechanism.contacts.rows.iter();
+        let steps = before.iter().zip(now).map(|(from, to)| [*from, to - from]);
+        let touching = contacts
+            .zip(steps)
+            .filter(|(row, _)| row.least_compliance > 0.0);
+        let rows: Vec<(&Row, [Vector3<f64>; 2])> = touching.collect();
         let linear = rows.iter().map(|(row, [from, step])| {
             row.linear.impulse_at(&(row.target - from - step)).dot(step)
         });
         Self {
             linear: linear.sum(),
-            inertia: mechanism.square(|body| bodies[body].velocity - before[body]),
+            inertia,
             rows,
         }
     }

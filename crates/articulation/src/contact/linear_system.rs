@@ -4,19 +4,64 @@
 //! and all of a mechanism with loops, couple the system of the joints, of which they know the response `G`: with the slopes `K` of the contacts their impulses
 //! follow from `(1 + K G) p = offset + K (target - v)`. Free bodies have a dense system of six unknowns each.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Matrix6, Matrix6x3};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 
 use crate::contact::Row;
 use crate::contact::row::Side;
+use crate::contact::unknowns::Unknowns;
 use crate::mechanism::Mechanism;
 use crate::spatial_inertia::SpatialInertia;
 
 /// Largest number of contacts that couple the system of the joints.
 const MAX_COUPLING_CONTACTS: usize = 48;
 
+/// The velocities of all bodies as unknowns: the bodies have their present values.
+#[derive(Default)]
+pub(super) struct BodyVelocities {
+    before: Vec<Vector6<f64>>,
+}
+
+impl Unknowns for BodyVelocities {
+    fn solve(&mut self, mechanism: &mut Mechanism, is_first: bool) -> bool {
+        mechanism.solve_linear(is_first)
+    }
+
+    fn at_contacts(&self, mechanism: &Mechanism, velocities: &mut Vec<Vector3<f64>>) {
+        let rows = mechanism.contacts.rows.iter();
+        velocities.clear();
+        velocities.extend(rows.map(|row| row.velocity(|body| mechanism.bodies[body].velocity)));
+    }
+
+    fn keep(&mut self, mechanism: &Mechanism) {
+        self.before.clear();
+        self.before
+            .extend(mechanism.bodies.iter().map(|body| body.velocity));
+    }
+
+    fn square_of_step(&self, mechanism: &Mechanism) -> f64 {
+        let change = |body: usize| mechanism.bodies[body].velocity - self.before[body];
+        let of_body = |body: usize| {
+            let moved = change(body);
+            moved.dot(&mechanism.bodies[body].momentum(&moved))
+        };
+        let moving = (0..self.before.len()).filter(|&body| mechanism.bodies[body].is_dynamic());
+        let joints = mechanism.joints.iter();
+        let of_joints = joints.map(|joint| joint.soft_square(change));
+        moving.map(of_body).sum::<f64>() + of_joints.sum::<f64>()
+    }
+
+    fn shorten(&mut self, mechanism: &mut Mechanism, share: f64) {
+        for (body, before) in mechanism.bodies.iter_mut().zip(&self.before) {
+            body.velocity = before + (body.velocity - before) * share;
+        }
+    }
+
+    fn finish(&mut self, _: &mut Mechanism) {}
+}
+
 impl Mechanism {
     /// Finds the velocities; false where there is no solution. `is_first`: for these joints and places of the bodies.
-    pub(super) fn solve_linear(&mut self, is_first: bool) -> bool {
+    fn solve_linear(&mut self, is_first: bool) -> bool {
         if self.joints.is_empty() {
             return self.solve_free_bodies();
         }

@@ -10,6 +10,7 @@
 //! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
 //! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
+mod axis_velocities;
 mod friction_limits;
 mod line_search;
 mod linear_system;
@@ -19,7 +20,9 @@ mod newton;
 mod restitution;
 mod row;
 mod sweeps;
+mod unknowns;
 
+use axis_velocities::AxisVelocities;
 use nalgebra::{Matrix3, Matrix6x3, Vector3, Vector6};
 pub(crate) use row::{Row, Side};
 
@@ -75,6 +78,8 @@ pub(crate) struct Contacts {
     pub directions: Vec<Vector3<f64>>,
     /// Whether contacts cannot be solved with the joints in this step.
     pub are_swept: bool,
+    /// The unknowns of trees with few free axes.
+    pub along_axes: AxisVelocities,
 }
 
 impl Mechanism {

@@ -6,10 +6,13 @@
 //! impulses until they agree (J. Haslinger, *Approximation of the Signorini problem with friction, obeying the Coulomb law*, 1983). All begins with what the contacts
 //! did in the step before.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector3;
 
 use crate::contact::Row;
+use crate::contact::axis_velocities::AxisVelocities;
 use crate::contact::friction_limits::FrictionLimits;
+use crate::contact::linear_system::BodyVelocities;
+use crate::contact::unknowns::Unknowns;
 use crate::mechanism::Mechanism;
 
 /// Largest number of iterations.
@@ -45,40 +48,55 @@ impl Mechanism {
         false
     }
 
+    /// Along the free axes if there are few of them.
     fn find_minimum(&mut self) -> bool {
-        let mut before: Vec<Vector6<f64>> = Vec::new();
+        if !AxisVelocities::suit(self) {
+            return self.find_minimum_of(&mut BodyVelocities::default());
+        }
+        let mut unknowns = std::mem::take(&mut self.contacts.along_axes);
+        let is_found = self.find_minimum_of(&mut unknowns);
+        self.contacts.along_axes = unknowns;
+        is_found
+    }
+
+    pub(super) fn find_minimum_of(&mut self, unknowns: &mut impl Unknowns) -> bool {
+        let (mut before, mut now) = (Vec::new(), Vec::new());
         let mut limits = FrictionLimits::default();
         let mut limit_change = FIRST_LIMIT_CHANGE;
         for iteration in 0..MAX_ITERATIONS {
-            if !self.solve_linear(iteration == 0) {
+            let is_first = iteration == 0;
+            if !unknowns.solve(self, is_first) {
                 return false;
             }
-            let is_whole = before.is_empty() || self.shorten_step(&before);
-            let error = self.linearize();
+            unknowns.at_contacts(self, &mut now);
+            let is_whole = is_first || self.shorten_step(unknowns, &before, &mut now);
+            let error = self.linearize(&now);
             if is_whole && error <= TOLERANCE.max(INNER_PART * limit_change) {
                 limits.update(&mut self.contacts.rows);
-                let change = self.linearize();
+                let change = self.linearize(&now);
                 let is_late = iteration > MAX_EXACT_ITERATIONS;
                 if error.max(change) <= if is_late { LATE_TOLERANCE } else { TOLERANCE } {
+                    unknowns.finish(self);
                     return true;
                 }
                 limit_change = change.min(FIRST_LIMIT_CHANGE);
                 limits.extrapolate(&mut self.contacts.rows);
-                self.linearize();
+                self.linearize(&now);
             }
-            before.clear();
-            before.extend(self.bodies.iter().map(|body| body.velocity));
+            unknowns.keep(self);
+            std::mem::swap(&mut before, &mut now);
         }
         false
     }
 
-    /// Takes the impulses that belong to the velocities, and what contacts do near them; returns by how much the linear ones differed, as a part of the largest one.
-    fn linearize(&mut self) -> f64 {
+    /// Takes the impulses that belong to the velocities at the contacts, and what contacts do near them; returns by how much the linear ones differed, as a part of the
+    /// largest one.
+    fn linearize(&mut self, velocities: &[Vector3<f64>]) -> f64 {
         let (mut error, mut largest): (f64, f64) = (0.0, 0.0);
-        for row in self.contacts.rows.iter_mut().filter(|row| row.acts()) {
-            let velocity = row.velocity(|body| self.bodies[body].velocity);
+        let rows = self.contacts.rows.iter_mut().zip(velocities);
+        for (row, velocity) in rows.filter(|(row, _)| row.acts()) {
             let assumed = row.linear.impulse_at(&(row.target - velocity));
-            (row.impulse, row.linear) = row.linearized(&velocity);
+            (row.impulse, row.linear) = row.linearized(velocity);
             error = error.max((row.impulse - assumed).amax());
             largest = largest.max(row.impulse[0]);
         }
@@ -106,7 +124,7 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use geometry::Pose;
-    use nalgebra::{Matrix3, UnitQuaternion};
+    use nalgebra::{Matrix3, UnitQuaternion, Vector6};
     use test_support::random::Random;
 
     use super::*;

@@ -59,6 +59,10 @@ pub(crate) struct Side {
     pub body: usize,
     /// Place of the body among the touching ones.
     pub place: usize,
+    /// 1 for the first body, -1 for the second.
+    pub sign: f64,
+    /// From the centre of mass of the body to the point.
+    pub lever: Vector3<f64>,
     /// From impulses along the axes to that on the body; its transpose is from the velocity of the body to its part of the relative velocity.
     pub jacobian: Matrix6x3<f64>,
 }
@@ -89,6 +93,8 @@ impl Row {
             Some(Side {
                 body,
                 place: place_of(places, body),
+                sign,
+                lever,
                 jacobian,
             })
         });
