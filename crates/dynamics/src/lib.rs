@@ -143,11 +143,16 @@ pub struct SubStep {
     apart: Vec<ColliderPair>,
     /// Whether the mechanisms have moved all that moves, so that the engine only looks for collisions.
     is_integrated: bool,
+    /// Whether that is known as well, so that the engine has nothing to do.
+    is_known: bool,
 }
 
 impl SubStep {
     /// Advances the engine; `callback` decides about pairs of shapes that may touch.
     pub fn run(&mut self, callback: Option<ContactCallback<'_>>) {
+        if self.is_known {
+            return;
+        }
         let rules = contacts::Rules::new(callback, std::mem::take(&mut self.verdicts), &self.apart);
         if self.is_integrated {
             self.world.detect_collisions(self.gravity, &rules);
@@ -328,7 +333,12 @@ impl Dynamics {
         let gravity = gravity_of(scene);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
-        contacts::set_hooks(&mut world, &verdicts, &apart);
+        let is_known = is_integrated
+            && !script_access.possible
+            && self.mechanisms.know_surroundings(&mut world);
+        if !is_known {
+            contacts::set_hooks(&mut world, &verdicts, &apart);
+        }
         if !is_integrated {
             world.divide_touching(|collider| self.mechanisms.solves(collider));
             self.mechanisms.note_parts(&mut self.links, &mut world);
@@ -343,6 +353,7 @@ impl Dynamics {
             verdicts,
             apart,
             is_integrated,
+            is_known,
         })
     }
 

@@ -90,12 +90,13 @@ impl World {
     }
 
     /// Whether the bodies of a pair of colliders sleep, and nothing that moves is near them.
-    pub(super) fn sleeps(&self, pair: ColliderPair, disturbed: &BTreeSet<u32>) -> bool {
+    /// `is_disturbed`: whether a collider is near one that moves, by index.
+    pub(super) fn sleeps(&self, pair: ColliderPair, is_disturbed: impl Fn(u32) -> bool) -> bool {
         let sides = [pair.0, pair.1].map(|index| {
             let (collider, _) = self.colliders.get_unknown_gen(index)?;
             let rigid = self.bodies.get(collider.parent()?)?;
-            let is_disturbed = rigid.is_dynamic() && disturbed.contains(&index);
-            (!is_disturbed && (rigid.is_fixed() || rigid.is_sleeping())).then(|| rigid.is_dynamic())
+            let rests = rigid.is_fixed() || rigid.is_sleeping() && !is_disturbed(index);
+            rests.then(|| rigid.is_dynamic())
         });
         matches!(sides, [Some(a), Some(b)] if a || b)
     }
@@ -177,7 +178,7 @@ impl World {
 }
 
 /// A pair in the order in which it is asked about.
-fn ordered([first, second]: [ColliderHandle; 2]) -> [ColliderHandle; 2] {
+pub(super) fn ordered([first, second]: [ColliderHandle; 2]) -> [ColliderHandle; 2] {
     if first.into_raw_parts() < second.into_raw_parts() {
         [first, second]
     } else {

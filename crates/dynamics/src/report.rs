@@ -41,10 +41,16 @@ impl Dynamics {
             step,
             seen,
             is_integrated,
+            is_known,
             ..
         } = sub_step;
         if self.call.is_none() {
             return;
+        }
+        match (is_integrated, is_known) {
+            (true, true) => {}
+            (true, false) => self.mechanisms.look_around(&world),
+            (false, _) => self.mechanisms.forget_surroundings(),
         }
         if is_integrated {
             self.mechanisms.apply_positions(&mut self.links, &mut world);

@@ -185,6 +185,12 @@ impl World {
         self.run_pipeline(0.0, gravity, hooks);
     }
 
+    /// Moves the colliders to where their bodies are, as a step does before it looks for collisions.
+    pub(super) fn move_colliders(&mut self) {
+        self.bodies
+            .propagate_modified_body_positions_to_colliders(&mut self.colliders);
+    }
+
     /// Whether the last step was made under the same gravity.
     pub(super) fn has_gravity(&self, gravity: Vector) -> bool {
         self.gravity == Some(gravity)

@@ -4,6 +4,7 @@
 //!
 //! A mechanism that touches another one, or too much, is left to rapier, with its joints as impulse joints.
 
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -11,6 +12,7 @@ use articulation::Contact;
 
 use super::points::{Pair, Point};
 use super::search::{Conditions, Search, Touching};
+use super::surroundings::NearPair;
 use crate::contacts::{ColliderPair, Verdicts};
 use crate::convert::to_vector;
 use crate::world::World;
@@ -53,16 +55,20 @@ impl ExactContacts {
         self.pairs.get(&pair).is_some_and(|pair| pair.touched)
     }
 
-    /// Finds what a mechanism touches; returns its guests, or None when it is left to rapier.
+    /// Finds what a mechanism touches; returns its guests, or None when it is left to rapier. `near`: what it may touch, if that is known.
     pub(super) fn find(
         &mut self,
         world: &World,
         conditions: Conditions<'_>,
         touching: Touching<'_>,
+        near: Option<&[NearPair]>,
     ) -> Option<Vec<Handle>> {
         let mechanism = touching.mechanism;
         let mut search = Search::new(world, conditions, touching);
-        let found = search.run(&mut self.pairs);
+        let found = match near {
+            Some(near) => search.look_at_known(near, &mut self.pairs),
+            None => search.run(&mut self.pairs),
+        };
         self.meetings
             .extend(search.meeting.map(|other| [mechanism, other]));
         if found.is_none() {
@@ -113,14 +119,15 @@ impl ExactContacts {
     /// anew, or that something comes near to, wake up.
     pub(crate) fn pairs(&mut self, world: &mut World, verdicts: &Verdicts) -> Vec<ColliderPair> {
         if self.pairs.values().any(|pair| !pair.is_solved) {
-            let disturbed = world.disturbed();
+            let disturbed = LazyCell::new(|| world.disturbed());
             let stays = |key: ColliderPair, pair: &Pair| {
                 let is_as_before = || {
                     world
                         .verdict(key, verdicts)
                         .is_some_and(|now| now == pair.response)
                 };
-                pair.is_solved || world.sleeps(key, &disturbed) && is_as_before()
+                pair.is_solved
+                    || world.sleeps(key, |index| disturbed.contains(&index)) && is_as_before()
             };
             let mut left = Vec::new();
             self.pairs.retain(|&key, pair| {

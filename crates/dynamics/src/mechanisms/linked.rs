@@ -156,6 +156,11 @@ impl Linked {
         &self.bodies
     }
 
+    /// The colliders of the bodies that move.
+    pub(super) fn colliders(&self) -> &[ColliderHandle] {
+        &self.colliders
+    }
+
     /// A shape that moves.
     pub(super) fn moving_shape(&self) -> Option<Handle> {
         let moving = self.bodies.iter().find(|body| body.is_dynamic);

@@ -83,7 +83,7 @@ impl Loose {
                 colliders: rigid.colliders(),
                 bases: &bases,
             };
-            if let Some(guests) = contacts.find(world, conditions, touching) {
+            if let Some(guests) = contacts.find(world, conditions, touching, None) {
                 self.add(guests, start, contacts, number);
                 taken.extend(self.groups[self.count - 1].guests());
             }

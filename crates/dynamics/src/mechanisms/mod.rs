@@ -6,6 +6,7 @@
 //! solves contacts and joints; the mechanisms then start from the contact impulses of the sub-step before, so that rapier only answers what
 //! changes.
 
+mod capsule_contacts;
 pub(super) mod exact_contacts;
 mod face_contacts;
 mod ghosts;
@@ -17,6 +18,7 @@ mod normals;
 pub(super) mod points;
 mod reach;
 mod search;
+mod surroundings;
 pub(super) mod workers;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,6 +40,7 @@ use loose::{Loose, Start};
 use scene::Handle;
 use scene::joint::JointSolver;
 use search::Conditions;
+use surroundings::Surroundings;
 use workers::Workers;
 
 /// Number of joints from which on mechanisms are solved on several threads: with fewer, waking the threads takes as long as the work.
@@ -65,6 +68,9 @@ pub(super) struct Mechanisms {
     order: Vec<Handle>,
     /// Shapes of mechanisms that are solved as one, since they touch each other or the same free body.
     joined: BTreeSet<[Handle; 2]>,
+    surroundings: Surroundings,
+    /// Whether no other bodies move.
+    are_alone: bool,
 }
 
 /// A mechanism in the making.
@@ -127,6 +133,9 @@ impl Mechanisms {
             self.places
                 .extend(dynamic.map(|(index, body)| (body.shape, (number, index))));
         }
+        self.surroundings.forget();
+        let moving = bodies.iter().filter(|(_, body)| body.build.dynamic);
+        self.are_alone = moving.count() == self.places.len();
     }
 
     /// Notes in how many parts rapier makes the next sub-step for linked bodies.
@@ -213,7 +222,8 @@ impl Mechanisms {
                 slack: PREDICTION_DISTANCE,
                 is_refused: &|_, _| false,
             };
-            let guests = self.contacts.find(world, conditions, touching);
+            let near = self.surroundings.of(number);
+            let guests = self.contacts.find(world, conditions, touching, near);
             linked.shared = guests.is_none();
             linked.receive(guests.unwrap_or_default(), bodies);
         }
@@ -275,6 +285,29 @@ impl Mechanisms {
         self.all
             .iter()
             .for_each(|linked| linked.apply_motions(links, world));
+    }
+
+    /// Whether the mechanisms, which have just moved, know without the engine what they may touch next.
+    pub(super) fn know_surroundings(&self, world: &mut World) -> bool {
+        if !self.surroundings.are_known() {
+            return false;
+        }
+        world.move_colliders();
+        self.surroundings.cover(world)
+    }
+
+    /// Finds out what the mechanisms may touch from now on, for as long as nothing else moves.
+    pub(super) fn look_around(&mut self, world: &World) {
+        self.surroundings.forget();
+        if self.are_alone {
+            let colliders = self.all.iter().map(Linked::colliders);
+            self.surroundings.find(world, colliders);
+        }
+    }
+
+    /// What the mechanisms may touch has to be found by the engine.
+    pub(super) fn forget_surroundings(&mut self) {
+        self.surroundings.forget();
     }
 
     /// Calls `work` for every mechanism.

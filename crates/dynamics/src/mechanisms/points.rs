@@ -8,6 +8,7 @@ use rapier3d_f64::parry::query::{
 };
 use rapier3d_f64::prelude::{Collider, ColliderHandle};
 
+use super::capsule_contacts::{are_capsule_and_cuboid, update_capsule_at_face};
 use super::face_contacts::update_at_face;
 use super::needed_points::{remove_middles, spread};
 use super::normals::{move_back, way_out};
@@ -111,8 +112,12 @@ impl Pair {
     pub(super) fn update(&mut self, first: &Collider, second: &Collider, reach: f64) -> bool {
         let apart = first.position().inv_mul(second.position());
         let shapes = [first.shape(), second.shape()];
+        if self.manifolds.is_empty() && are_capsule_and_cuboid(shapes) {
+            self.manifolds.push(Manifold::new());
+        }
         if let [manifold] = &mut self.manifolds[..]
-            && update_at_face(manifold, &apart, shapes, reach)
+            && (update_capsule_at_face(manifold, &apart, shapes, reach)
+                || update_at_face(manifold, &apart, shapes, reach))
         {
             return self.is_within(reach);
         }
@@ -138,7 +143,7 @@ impl Pair {
         points.any(|found| found.dist < reach)
     }
 
-    fn search(
+    pub(super) fn search(
         &mut self,
         apart: &EnginePose,
         first: &Collider,

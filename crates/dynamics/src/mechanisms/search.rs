@@ -9,6 +9,7 @@ use rapier3d_f64::prelude::{
 
 use super::ghosts;
 use super::points::{Pair, Point};
+use super::surroundings::NearPair;
 use crate::bodies::Tag;
 use crate::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
 use crate::convert::from_vector;
@@ -110,6 +111,24 @@ impl<'a> Search<'a> {
             if self.points.len() > MAX_POINTS || self.guests.len() > self.conditions.max_guests {
                 return None;
             }
+        }
+        ghosts::remove_seams(&mut self.points, &self.world.colliders);
+        Some(())
+    }
+
+    /// Finds the points of pairs that are known to be near: all others are too far away.
+    pub(super) fn look_at_known(
+        &mut self,
+        near: &[NearPair],
+        pairs: &mut BTreeMap<ColliderPair, Pair>,
+    ) -> Option<()> {
+        for pair in near {
+            if !pair.is_apart(self.world, self.conditions.slack) {
+                self.look_at(pair.colliders, pairs)?;
+            }
+        }
+        if self.points.len() > MAX_POINTS {
+            return None;
         }
         ghosts::remove_seams(&mut self.points, &self.world.colliders);
         Some(())

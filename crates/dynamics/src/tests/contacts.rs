@@ -159,6 +159,15 @@ fn a_guest_bears_a_mechanism_on_the_ground() {
 }
 
 #[test]
+fn a_mechanism_that_falls_from_afar_lands_on_the_ground() {
+    let mut bench = Bench::new();
+    bench.floor();
+    let (foot, _) = on_a_light_foot(&mut bench, 10.0, 3.0);
+    bench.run(40);
+    near(bench.height(foot), 0.05, 1e-3);
+}
+
+#[test]
 fn a_script_takes_the_ground_from_a_mechanism() {
     let mut bench = Bench::new();
     bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
