@@ -2,7 +2,8 @@
 """Gymnasium's half cheetah learns to run: a linear controller, by augmented random search (Mania, Guy and Recht, 2018) on many worlds.
 
     pip install '.[gym]'
-    python3 examples/python/train_cheetah.py [--rounds 60] [--plot curve.svg]
+    python3 examples/python/train_cheetah.py [--rounds 60] [--plot curve.svg] [--record run.swr]
+    swanilda view run.swr
 
 The robot is the MJCF file in the package gymnasium. In each round every direction of the search has a world for each of its two signs.
 """
@@ -68,10 +69,10 @@ class Normal:
         return (observations - self.mean) / numpy.sqrt(self.squares / max(self.count, 1) + 1e-8)
 
 
-def returns(envs, controllers, normal, learn=True):
-    """The return of an episode with each world's controller."""
+def returns(envs, controllers, normal, learn=True, record=None):
+    """The return of an episode with each world's controller; `record` is the file for a recording of the first world."""
     torques = numpy.array(list(GEARS.values()))
-    observations, _ = envs.reset()
+    observations, _ = envs.reset(options={"record": {0: record}} if record else None)
     total, seen = numpy.zeros(envs.num_envs), []
     for _ in range(STEPS):
         seen.append(observations)
@@ -118,6 +119,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=60)
     parser.add_argument("--plot", help="write the curve of returns to this SVG file")
+    parser.add_argument("--record", help="record an episode with what was learned in this file, for `swanilda view`")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     options = parser.parse_args()
     controller, normal, curve = search(options.rounds, options.threads)
@@ -125,7 +127,7 @@ def main():
         plot(curve, options.plot)
     envs = make(1)
     envs.reset(seed=100)
-    result = returns(envs, controller[None], normal, learn=False)[0]
+    result = returns(envs, controller[None], normal, learn=False, record=options.record)[0]
     print(f"an episode of {STEPS * 0.05:.0f} s with what was learned: return {result:.0f}")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import os
 import time
@@ -123,6 +124,14 @@ class Simulator(_swanilda.Simulator):
         sim = self.require("sim")
         handles = sim.getObjectsInTree(sim.handle_scene)
         return [(handle, sim.getObjectAlias(handle, 2), sim.getObjectType(handle)) for handle in handles]
+
+    def record(self, path: str | os.PathLike[str], images: bool = False) -> contextlib.AbstractContextManager[object]:
+        """Records what the simulator shows from now on in a file that `swanilda view` plays, until `end_recording`, `close` or the end of a
+        `with s.record('run.swr'):`. images: with what vision sensors see."""
+        self._record(path, images)
+        ending = contextlib.ExitStack()
+        ending.callback(self.end_recording)
+        return ending
 
     def view(self, port: int = 0, height: int = 480) -> _display.View:
         """The viewer's page: a notebook shows it, `.url` is its address. It follows the steps; `serve` looks after it between them."""

@@ -25,6 +25,8 @@ import gymnasium
 import numpy
 
 from ._simulator import Simulator
+from .recordings import Recorder
+from .recordings import Recordings as Recordings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -107,8 +109,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
 
     observations, actions: what is read after, and written before each action, by the simulator itself. reward(observation, action), terminated(observation):
     functions. max_steps: actions until an episode is truncated. steps_per_action: simulation steps. prepare(sim): called once, before
-    the first episode; begin(sim, rng): at the start of each, to vary it with the random numbers of reset's seed. Other arguments are
-    those of `Simulator`.
+    the first episode; begin(sim, rng): at the start of each, to vary it with the random numbers of reset's seed. record: `Recordings`, the
+    episodes that `swanilda view` is to play. Other arguments are those of `Simulator`.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}
@@ -127,11 +129,13 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         render_mode: str | None = None,
         camera: str | None = None,
         resolution: Sequence[int] = (320, 240),
+        record: Recordings | None = None,
         **options: Any,
     ) -> None:
         self.render_mode, self._camera, self._resolution = render_mode, camera, resolution
         self._reward, self._terminated, self._begin = reward, terminated, begin
         self._max_steps, self._steps_per_action, self._count = max_steps, steps_per_action, 0
+        self._recorder = Recorder(record, 1)
         options.setdefault("quiet", True)
         self.simulator = Simulator(scene, **options)
         self._sim = self.simulator.require("sim")
@@ -143,13 +147,19 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self.action_space = box(actions, [1] * len(actions), numpy.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode. `options['record']`: the file for its recording."""
         super().reset(seed=seed)
+        self.simulator.end_recording()
         if self.simulator.state != "stopped":
             self.simulator.stop()
         self.simulator.start()
         self._count = 0
         if self._begin:
             self._begin(self._sim, self.np_random)
+        file = (options or {}).get("record")
+        for _, path, images in self._recorder.chosen([0], {0: file} if file else None):
+            self.simulator.record(path, images)
+        self._recorder.count([0])
         return self._observe(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
@@ -158,8 +168,10 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._count += 1
         observation = self._observe()
         reward = float(self._reward(observation, action))
-        ended = bool(self._terminated(observation))
-        return observation, reward, ended, self._count >= self._max_steps, {}
+        ended, is_long = bool(self._terminated(observation)), self._count >= self._max_steps
+        if ended or is_long:
+            self.simulator.end_recording()
+        return observation, reward, ended, is_long, {}
 
     def _observe(self) -> NDArray[numpy.float64]:
         return numpy.array(self._quantities.read())
@@ -172,6 +184,12 @@ class SceneEnv(gymnasium.Env[Any, Any]):
 
     def close(self) -> None:
         self.simulator.close()
+
+
+def names_of(quantities: Sequence[Quantity], widths: Sequence[int]) -> list[str]:
+    """A name for each number of quantities, which have so many each."""
+    each = ((repr(quantity), width) for quantity, width in zip(quantities, widths))
+    return [name if width == 1 else f"{name}[{at}]" for name, width in each for at in range(width)]
 
 
 def vector(make: Callable[[], gymnasium.Env[Any, Any]], count: int, processes: bool = False) -> gymnasium.vector.VectorEnv[Any, Any, Any]:

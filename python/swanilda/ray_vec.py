@@ -83,14 +83,18 @@ class Workers(gymnasium.vector.VectorEnv[Any, Any, Any]):
         return slice(worker * self._worlds, (worker + 1) * self._worlds)
 
     def reset(self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begins episodes in all worlds, or in those of `options['reset_mask']`."""
+        """Begins episodes in all worlds, or in those of `options['reset_mask']`.
+
+        `options['record']`: numbers of worlds and files, on the workers' machines, for the recordings of the episodes that begin.
+        """
         if seed is not None:
             self._seeds = [seed + world for world in range(self.num_envs)] if isinstance(seed, (int, numpy.integer)) else list(seed)
-        mask = (options or {}).get("reset_mask")
+        options = options or {}
+        mask = options.get("reset_mask")
         results = self._all(
             lambda worker, own: worker.reset.remote(
                 self._seeds[own] if seed is not None or mask is None else [None] * self._worlds,
-                None if mask is None else {"reset_mask": mask[own]},
+                _options_of(options, own),
             )
         )
         observations, infos = zip(*(result or self._begin(worker) for worker, result in enumerate(results)))
@@ -140,6 +144,13 @@ class Workers(gymnasium.vector.VectorEnv[Any, Any, Any]):
     def close_extras(self, **kwargs: Any) -> None:
         for worker in self._workers:
             ray.kill(worker)
+
+
+def _options_of(options: dict[str, Any], own: slice) -> dict[str, Any]:
+    """Those for a worker, whose worlds have numbers from 0."""
+    mask, named = options.get("reset_mask"), options.get("record") or {}
+    record = {world - own.start: path for world, path in named.items() if own.start <= world < own.stop}
+    return {"record": record} if mask is None else {"record": record, "reset_mask": mask[own]}
 
 
 def _next(seed: int) -> int:

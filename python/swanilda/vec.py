@@ -29,7 +29,9 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
 from . import _swanilda
-from .gym import Quantity, box
+from .gym import Quantity, box, names_of
+from .recordings import Recorder
+from .recordings import Recordings as Recordings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -129,6 +131,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         autoreset: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         reset_by: str = "auto",
         on_error: str = "raise",
+        record: Recordings | None = None,
         render_mode: str | None = None,
         camera: str | None = None,
         resolution: tuple[int, int] = (320, 240),
@@ -141,7 +144,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode is rgb_array or None, not '{render_mode}'")
         self.num_envs, self.render_mode, self.on_error = num_envs, render_mode, on_error
-        self._mode = AutoresetMode(autoreset)
+        self._mode, self._recorder = AutoresetMode(autoreset), Recorder(record, num_envs)
+        self._recorded: list[int] = []
         self.metadata = {"render_modes": ["rgb_array"], "render_fps": 20, "autoreset_mode": self._mode}
         self._reward, self._terminated = reward, terminated
         cameras, infos = dict(cameras or {}), dict(infos or {})
@@ -171,6 +175,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self._arrays = {name: numpy.asarray(self._vector.array(name)) for name in _ARRAYS}
         self._images = [numpy.asarray(self._vector.array("images", at)) for at in range(len(views))]
         self._cameras, self._infos = list(cameras), self._parts(infos, self._vector.infos)
+        self.names = {"observation": names_of(observations, self._vector.observations), "action": names_of(actions, [1] * len(actions))}
         self._over: NDArray[numpy.bool_] = numpy.zeros(num_envs, bool)
         self.single_action_space = box(actions, [1] * len(actions), numpy.float32)
         self.single_observation_space = self._space(box(observations, self._vector.observations, numpy.float64))
@@ -199,16 +204,28 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         """Whether episodes begin with a snapshot, or with a start of the simulation."""
         return self._vector.has_snapshot
 
+    @property
+    def action_duration(self) -> float:
+        """Simulated seconds of an action."""
+        return self._vector.action_duration
+
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begins episodes in all worlds, or in those of `options['reset_mask']`. From the seed s world k gets s + k."""
+        """Begins episodes in all worlds, or in those of `options['reset_mask']`. From the seed s world k gets s + k.
+
+        `options['record']`: numbers of worlds and files for the recordings of the episodes that begin.
+        """
         seeds = [seed + world for world in range(self.num_envs)] if isinstance(seed, (int, numpy.integer)) else seed
         seeds = list(seeds) if seeds is not None else [None] * self.num_envs
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds for {self.num_envs} worlds")
-        mask = (options or {}).get("reset_mask")
+        options = options or {}
+        mask = options.get("reset_mask")
         which = range(self.num_envs) if mask is None else numpy.flatnonzero(mask).tolist()
+        if unwritable := self._record(which, options.get("record")):
+            raise WorldError(unwritable)
         chosen = ((world, seeds[world]) for world in which)
         failures = self._vector.begin([(world, None if each is None else int(each) % 2**32) for world, each in chosen])
+        self._recorder.count(which)
         self._over[list(which)] = False
         self._end_failed(failures, numpy.zeros(self.num_envs, bool))
         return self._observe(), self._info()
@@ -220,15 +237,32 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self._arrays["actions"][...] = given
         began = self._over.copy() if self._mode == AutoresetMode.NEXT_STEP else numpy.zeros(self.num_envs, bool)
         self._arrays["resets"][...] = began
+        beginning = numpy.flatnonzero(began).tolist()
+        _warn(self._record(beginning))
         failures = self._vector.step()
+        self._recorder.count(beginning)
         rewards, terminated, truncated = self._scores(given, began)
         self._over = terminated | truncated
+        _warn(self._finish_recordings(failures))
         self._end_failed(failures, truncated)
         infos = self._info()
         self._note_errors(failures, infos)
         if self._mode == AutoresetMode.SAME_STEP and self._over.any():
             self._begin_again(infos)
         return self._observe(), rewards, terminated, truncated, infos
+
+    def _record(self, worlds: Sequence[int], named: Mapping[int, str | os.PathLike[str]] | None = None) -> list[tuple[int, str]]:
+        """Opens the files of episodes that begin and are recorded; those that cannot be written."""
+        episodes = self._recorder.chosen(worlds, named)
+        self._recorded = [world for world in self._recorded if world not in worlds] + [world for world, _, _ in episodes]
+        return self._vector.record(episodes) if episodes else []
+
+    def _finish_recordings(self, failures: Sequence[tuple[int, str]]) -> list[tuple[int, str]]:
+        """Completes the recordings of episodes that are over; the files that could not be written."""
+        failed = [world for world, _ in failures]
+        over = [world for world in self._recorded if self._over[world] or world in failed]
+        self._recorded = [world for world in self._recorded if world not in over]
+        return self._vector.finish_recordings(over) if over else []
 
     def _scores(
         self, actions: NDArray[numpy.float64], began: NDArray[numpy.bool_]
@@ -251,10 +285,9 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             return
         for world, _ in failures:
             self._over[world] = truncated[world] = True
-        error = WorldError(failures)
         if self.on_error == "raise":
-            raise error
-        warnings.warn(str(error), RuntimeWarning, stacklevel=3)
+            raise WorldError(failures)
+        _warn(failures)
 
     def _note_errors(self, failures: Sequence[tuple[int, str]], infos: dict[str, Any]) -> None:
         if failures:
@@ -269,7 +302,10 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             final[world] = {name: part[world] for name, part in last.items()} if isinstance(last, dict) else last[world]
         infos["final_obs"], infos["_final_obs"] = final, self._over.copy()
         infos["final_info"], infos["_final_info"] = self._info(), self._over.copy()
-        failures = self._vector.begin([(world, None) for world in numpy.flatnonzero(self._over).tolist()])
+        over = numpy.flatnonzero(self._over).tolist()
+        _warn(self._record(over))
+        failures = self._vector.begin([(world, None) for world in over])
+        self._recorder.count(over)
         self._over[:] = False
         self._end_failed(failures, numpy.zeros(self.num_envs, bool))
 
@@ -297,6 +333,11 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self.__dict__.pop("_vector", None)
 
 
+def _warn(failures: Sequence[tuple[int, str]]) -> None:
+    if failures:
+        warnings.warn(str(WorldError(failures)), RuntimeWarning, stacklevel=4)
+
+
 _ARRAYS = ("actions", "observations", "infos", "rewards", "terminated", "truncated", "resets", "failed")
 
 
@@ -310,7 +351,7 @@ def make(scene: str | os.PathLike[str], num_envs: int, *args: Any, **options: An
     randomize: what is drawn anew for each episode. prepare: Lua that runs once; begin: Lua at the start of each episode. threads: as many as
     there are processors. seed: of the simulators; world k's episodes follow from seed + k, or from reset's. autoreset: as gymnasium's vector
     environments. reset_by: `snapshot`, `start` (the simulation is stopped and started), or `auto`, with a snapshot where there can be one.
-    on_error: `raise`, or `truncate`: episodes in which a script fails are truncated, with the reason in infos['error']. render_mode='rgb_array',
-    camera, resolution: for `render`. Other arguments are those of `Simulator`: kind, time_step, params, unsafe_functions, package_dirs, data_dir.
+    on_error: `raise`, or `truncate`: episodes in which a script fails are truncated, with the reason in infos['error']. record: `Recordings`,
+    the episodes that `swanilda view` is to play. render_mode='rgb_array', camera, resolution: for `render`. Other arguments are those of `Simulator`: kind, time_step, params, unsafe_functions, package_dirs, data_dir.
     """
     return VectorEnv(scene, num_envs, *args, **options)

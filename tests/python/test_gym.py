@@ -8,12 +8,14 @@ gymnasium = pytest.importorskip("gymnasium")
 
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
+from recorded import exported, needs_command  # noqa: E402
+
 from swanilda import gym  # noqa: E402
 
 SCENE = pathlib.Path(__file__).parents[2] / "scenes" / "inverted_pendulum.lua"
 
 
-def make():
+def make(**changes):
     return gym.SceneEnv(
         SCENE,
         observations=[gym.joint_position("/Slider"), gym.joint_velocity("/Slider"), gym.joint_position("/Hinge")],
@@ -25,6 +27,7 @@ def make():
         begin=lambda sim, rng: sim.setJointTargetVelocity(sim.getObject("/Slider"), rng.uniform(-0.1, 0.1)),
         render_mode="rgb_array",
         resolution=[32, 24],
+        **changes,
     )
 
 
@@ -55,3 +58,22 @@ def test_several_at_once(processes):
     observations, rewards, *_ = envs.step(envs.action_space.sample())
     assert observations.shape == (2, 3) and list(rewards) == [1, 1]
     envs.close()
+
+
+@needs_command
+def test_chosen_episodes_are_recorded(tmp_path):
+    env = make(record=gym.Recordings(tmp_path / "episodes", every=2))
+
+    def run(**options):
+        observations = [env.reset(seed=3, **options)[0].tolist()]
+        for _ in range(30):
+            observations.append(env.step([0.0])[0].tolist())
+        return observations
+
+    first = run()
+    assert run() == first and run(options={"record": tmp_path / "third.swr"}) == first
+    # The third was chosen too, and has the file that was given for it.
+    assert [path.name for path in (tmp_path / "episodes").iterdir()] == ["world-0-episode-0.swr"]
+    recorded = [exported(path) for path in (tmp_path / "episodes" / "world-0-episode-0.swr", tmp_path / "third.swr")]
+    assert recorded[0] == recorded[1] and recorded[0][0][:3] == pytest.approx([0, 0.05, 0.1])
+    env.close()

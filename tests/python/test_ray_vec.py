@@ -49,11 +49,16 @@ def steps(envs, count=30):
     return seen
 
 
-def test_worlds_are_the_same_as_in_one_process(cluster):
+def test_worlds_are_the_same_as_in_one_process(cluster, tmp_path):
     spread = ray_vec.Workers(make, workers=2, worlds=3)
     assert spread.action_space.shape == (6, 1)
     for one, other in zip(steps(spread), steps(make(6))):
         assert (one == other).all()
+    spread.reset(options={"record": {4: tmp_path / "fifth.swr"}})
+    for _ in range(20):
+        spread.step(numpy.zeros((6, 1)))
+    # Complete, with its index.
+    assert (tmp_path / "fifth.swr").read_bytes().endswith(b"SWINDEX1")
     spread.close()
 
 

@@ -12,6 +12,8 @@ import tracemalloc
 
 import pytest
 
+from recorded import exported, needs_command
+
 import swanilda
 
 SCENES = pathlib.Path(__file__).parents[2] / "scenes"
@@ -41,6 +43,29 @@ def test_the_same_seed_is_the_same_run():
             return sim.getObjectPose(sim.getObject("/Pole"), -1), s.state_hash()
 
     assert run() == run()
+
+
+@needs_command
+def test_a_run_is_recorded(tmp_path):
+    with swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=7, quiet=True) as s:
+        s.start()
+        s.step(2)
+        before = s.snapshot()
+        with s.record(tmp_path / "a.swr"):
+            s.step(3)
+            for go_back in (lambda: s.restore(before), lambda: s.branch(1)):
+                with pytest.raises(swanilda.Error, match="end_recording"):
+                    go_back()
+        s.step(10)
+        s.restore(before)
+        s.record(tmp_path / "b.swr")
+        s.step(1)
+        s.record(tmp_path / "c.swr")
+        s.step(2)
+        with pytest.raises(OSError, match="nowhere"):
+            s.record(tmp_path / "nowhere" / "d.swr")
+    times = [exported(tmp_path / f"{name}.swr")[0] for name in "abc"]
+    assert [pytest.approx(each) for each in times] == [[0.1, 0.15, 0.2, 0.25], [0.1, 0.15], [0.15, 0.2, 0.25]]
 
 
 def test_a_snapshot_is_brought_back_with_the_same_future():

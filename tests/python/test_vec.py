@@ -9,6 +9,8 @@ gymnasium = pytest.importorskip("gymnasium")
 import numpy  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
+from recorded import exported, needs_command  # noqa: E402
+
 from swanilda import Error, gym, vec  # noqa: E402
 
 SCENE = pathlib.Path(__file__).parents[2] / "scenes" / "inverted_pendulum.lua"
@@ -156,3 +158,53 @@ def test_the_wrappers_of_gymnasium_work():
         *_, infos = envs.step(envs.action_space.sample() * 0)
     assert list(infos["episode"]["l"]) == [30, 30]
     envs.close()
+
+
+@needs_command
+@pytest.mark.parametrize("autoreset", ["NextStep", "SameStep"])
+def test_chosen_episodes_are_recorded(tmp_path, autoreset):
+    folder = tmp_path / "episodes"
+    arguments = {"max_steps": 5, "autoreset": autoreset, "terminated": None}
+    envs = make(3, record=vec.Recordings(folder, worlds=[0, 2], every=2), **arguments)
+    for one, other in zip(episode(envs, 1, steps=20), episode(make(3, **arguments), 1, steps=20)):
+        assert (one == other).all()
+    assert sorted(path.name for path in folder.iterdir()) == [f"world-{k}-episode-{n}.swr" for k in (0, 2) for n in (0, 2)]
+    times, frames, _ = exported(folder / "world-2-episode-2.swr")
+    assert times == pytest.approx([0, 0.05, 0.1, 0.15, 0.2, 0.25]) and any(frame.startswith("/Slider") for frame in frames)
+    # The next episode of another world, as a file of its own.
+    envs.reset(seed=1, options={"record": {1: tmp_path / "one.swr"}})
+    envs.step(numpy.zeros((3, 1)))
+    envs.close()
+    assert exported(tmp_path / "one.swr")[0] == pytest.approx([0, 0.05])
+
+
+@needs_command
+def test_the_recording_of_a_failed_episode_shows_the_error(tmp_path):
+    envs = make(1, actions=[gym.lua("if x > 2 then error('too fast') end", -3, 3)], record=vec.Recordings(tmp_path))
+    envs.reset(seed=1)
+    with pytest.raises(vec.WorldError, match="too fast"):
+        envs.step([[2.5]])
+    assert any("too fast" in text for text in exported(tmp_path / "world-0-episode-0.swr")[2])
+
+
+def test_recordings_that_cannot_be_are_refused(tmp_path):
+    envs = make(2)
+    with pytest.raises(vec.WorldError, match="world 1: cannot write .*nowhere"):
+        envs.reset(options={"record": {1: tmp_path / "nowhere" / "a.swr"}})
+    with pytest.raises(ValueError, match="no world 2: they are 0 to 1"):
+        envs.reset(options={"record": {2: tmp_path / "a.swr"}})
+    with pytest.raises(ValueError, match="no episode begins in world 1"):
+        envs.reset(options={"record": {1: tmp_path / "a.swr"}, "reset_mask": numpy.array([True, False])})
+    with pytest.raises(ValueError, match="from 1, not 0"):
+        make(record=vec.Recordings(tmp_path, every=0))
+    envs.reset(seed=1)
+    # A folder that goes away takes recordings with it, not steps.
+    envs = make(1, record=vec.Recordings(tmp_path / "gone"), max_steps=1)
+    envs.reset(seed=1)
+    for path in (tmp_path / "gone").iterdir():
+        path.unlink()
+    (tmp_path / "gone").rmdir()
+    envs.step(numpy.zeros((1, 1)))
+    with pytest.warns(RuntimeWarning, match="world 0: cannot write"):
+        observation, *_ = envs.step(numpy.zeros((1, 1)))
+    assert numpy.isfinite(observation).all()

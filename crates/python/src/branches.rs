@@ -51,6 +51,7 @@ impl World {
         if self.viewer.borrow().is_some() {
             return Err(Error::new_err(NOT_SHOWN));
         }
+        self.check_not_recorded()?;
         let moment = self.borrow()?.snapshot();
         let moment = Rc::new(moment.map_err(|error| errors::plain(&error))?);
         let numbers: Vec<u64> = (0..count).map(|_| worlds::new_number()).collect();

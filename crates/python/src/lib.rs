@@ -17,6 +17,7 @@ mod making;
 mod module;
 mod options;
 mod quantities;
+mod recording;
 mod script;
 mod simulator;
 mod vector;

@@ -44,5 +44,6 @@ pub fn made(options: Options, quiet: bool) -> World {
         main,
         shared,
         viewer: None.into(),
+        recording: None.into(),
     }
 }

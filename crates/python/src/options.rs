@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use swanilda::{Options, Permissions, ScriptKind};
+use vector::Recorded;
 
 /// The arguments of simulators and of worlds.
 pub struct Given {
@@ -56,6 +57,15 @@ pub fn kind_of(name: &str) -> PyResult<ScriptKind> {
         _ => Err(PyValueError::new_err(format!(
             "there are no scripts of type '{name}': it is customization, simulation, addon, sandbox or main"
         ))),
+    }
+}
+
+/// What of a simulator is recorded.
+pub fn recorded(images: bool) -> Recorded {
+    if images {
+        Recorded::SceneAndImages
+    } else {
+        Recorded::Scene
     }
 }
 

@@ -119,6 +119,31 @@ impl Simulator {
         self.world()?.raise()
     }
 
+    /// One iteration of the loop, of which browsers are not shown anything; whether a step ran.
+    fn _advance(&self, py: Python<'_>) -> PyResult<bool> {
+        let stepped = self.detached(py, |simulator| {
+            let before = simulator.steps();
+            simulator.iterate();
+            simulator.steps() != before
+        })?;
+        self.world()?.raise()?;
+        Ok(stepped)
+    }
+
+    /// Does what browsers ask for, waiting up to `timeout` seconds for that, and shows them what changed; whether there can be some.
+    fn _attend(&self, py: Python<'_>, timeout: f64) -> PyResult<bool> {
+        let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
+        let number = self.number;
+        py.detach(|| -> PyResult<()> {
+            let world = worlds::get(number)?;
+            world.show(&mut *world.borrow()?, timeout);
+            Ok(())
+        })?;
+        let world = self.world()?;
+        world.raise()?;
+        Ok(world.viewer.borrow().is_some())
+    }
+
     /// Shows the simulator to browsers on this machine; returns the address of the page.
     fn _view(&self, port: u16) -> PyResult<String> {
         let world = self.world()?;
@@ -138,6 +163,16 @@ impl Simulator {
             .as_ref()
             .map(Viewer::url)
             .unwrap_or_default())
+    }
+
+    /// Records what is shown after each step from now on in a file.
+    fn _record(&self, path: PathBuf, images: bool) -> PyResult<()> {
+        self.world()?.record(path, images)
+    }
+
+    /// Completes the file of `record`, if there is one.
+    fn end_recording(&self) -> PyResult<()> {
+        self.world()?.finish_recording()
     }
 
     /// Starts the simulation, or resumes it.
@@ -162,6 +197,7 @@ impl Simulator {
 
     /// Brings back what the simulator was.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
+        self.world()?.check_not_recorded()?;
         let restored = self.detached(py, |simulator| simulator.restore(&snapshot.0))?;
         restored.map_err(|error| errors::plain(&error))
     }

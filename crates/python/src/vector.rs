@@ -9,12 +9,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use swanilda::Options;
 use vector::{
-    Action, Arrays, Camera, Declaration, Distribution, Failure, Quantity, Reset, Scale, Target,
+    Action, Arrays, Camera, Declaration, Distribution, Failure, Quantity, Recording, Reset, Scale, Target,
     Variation,
 };
 
 use crate::errors::Error;
-use crate::options::{Given, check_time_step, kind_of};
+use crate::options::{Given, check_time_step, kind_of, recorded};
 
 /// Something that is declared: its kind, and the texts that belong to it.
 #[derive(FromPyObject)]
@@ -258,6 +258,12 @@ impl Vector {
         self.layout.has_snapshot
     }
 
+    /// Simulated seconds of an action.
+    #[getter]
+    fn action_duration(&self) -> f64 {
+        self.layout.action_duration
+    }
+
     /// The numbers of all worlds by name, for `numpy.asarray`; pictures by their place.
     #[pyo3(signature = (name, image=0))]
     fn array(&self, name: &str, image: usize) -> PyResult<Array> {
@@ -306,6 +312,22 @@ impl Vector {
                 "action {place} of world {world} is no finite number; nothing was stepped"
             ))
         })
+    }
+
+    /// Records the next episodes of worlds in files, with the images of vision sensors where that is true; the files that cannot be written.
+    fn record(&self, py: Python<'_>, episodes: Vec<(usize, PathBuf, bool)>) -> Vec<(usize, String)> {
+        let recording = |(world, path, images)| Recording {
+            world,
+            path,
+            recorded: recorded(images),
+        };
+        let recordings: Vec<Recording> = episodes.into_iter().map(recording).collect();
+        py.detach(|| pairs(self.locked().record(&recordings)))
+    }
+
+    /// Completes the recordings of worlds; the files that could not be written.
+    fn finish_recordings(&self, py: Python<'_>, worlds: Vec<usize>) -> Vec<(usize, String)> {
+        py.detach(|| pairs(self.locked().finish_recordings(&worlds)))
     }
 
     /// Draws the pictures of a camera in all worlds; those that failed, and why.

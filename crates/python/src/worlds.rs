@@ -18,6 +18,7 @@ use crate::branches::Branches;
 use crate::callables::Callables;
 use crate::errors::Error;
 use crate::host;
+use crate::recording::Recording;
 
 thread_local! {
     static WORLDS: RefCell<BTreeMap<u64, Rc<World>>> = const { RefCell::new(BTreeMap::new()) };
@@ -52,6 +53,7 @@ pub struct World {
     /// What shows it in browsers.
     pub viewer: RefCell<Option<Viewer>>,
     pub branches: RefCell<Branches>,
+    pub recording: RefCell<Option<Recording>>,
 }
 
 impl World {
@@ -78,12 +80,13 @@ impl World {
 
     /// Ends the simulation and all scripts, which clean up.
     fn end(&self) -> PyResult<()> {
+        let recorded = self.finish_recording();
         let mut simulator = self.borrow()?;
         if simulator.state() != SimulationState::Stopped {
             simulator.stop();
         }
         simulator.clear_scene();
-        Ok(())
+        recorded
     }
 
     /// The simulator, to run it.

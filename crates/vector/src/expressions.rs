@@ -3,6 +3,8 @@
 use scene::Data;
 use simulator::{ScriptKind, ScriptRef, Simulator};
 
+use crate::declaration::{Action, Declaration, Quantity, Target};
+
 /// The script. `compile` gives a text a number, `run` runs it.
 const SCRIPT: &str = r"
 sim = require 'sim'
@@ -36,6 +38,22 @@ impl Expressions {
     pub fn new(simulator: &mut Simulator) -> Result<Self, String> {
         let script = simulator.add_script(ScriptKind::AddOn, "vector", SCRIPT.as_bytes());
         Ok(Self(Some(script.map_err(|error| error.to_string())?)))
+    }
+
+    /// The script for what is declared, if anything is in Lua; its preparation has run.
+    pub(crate) fn declared(
+        simulator: &mut Simulator,
+        declaration: &Declaration,
+    ) -> Result<Self, String> {
+        if !is_needed(declaration) {
+            return Ok(Self::none());
+        }
+        let expressions = Self::new(simulator)?;
+        if let Some(text) = &declaration.prepare {
+            let number = expressions.compile(simulator, "the preparation", "", text)?;
+            expressions.run(simulator, number, &[])?;
+        }
+        Ok(expressions)
     }
 
     fn script(&self) -> Result<&ScriptRef, String> {
@@ -76,4 +94,20 @@ impl Expressions {
         let results = simulator.call(self.script()?, "run", &args);
         results.map_err(|error| error.to_string())
     }
+}
+
+/// Whether anything is declared in Lua.
+fn is_needed(declaration: &Declaration) -> bool {
+    let texts = [
+        &declaration.reward,
+        &declaration.terminated,
+        &declaration.prepare,
+        &declaration.begin,
+    ];
+    let mut quantities = declaration.observations.iter().chain(&declaration.infos);
+    let (mut actions, mut variations) = (declaration.actions.iter(), declaration.variations.iter());
+    texts.into_iter().any(Option::is_some)
+        || quantities.any(|quantity| matches!(quantity, Quantity::Expression(_)))
+        || actions.any(|action| matches!(action, Action::Statement(_)))
+        || variations.any(|variation| matches!(variation.target, Target::Statement(_)))
 }

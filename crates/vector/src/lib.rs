@@ -8,6 +8,7 @@ mod arrays;
 mod declaration;
 mod expressions;
 mod quantities;
+mod recordings;
 mod variations;
 mod vector;
 mod worker;
@@ -22,6 +23,8 @@ pub use declaration::{
 };
 pub use expressions::Expressions;
 pub use quantities::{Readers, Writers};
+pub use recordings::Recording;
 pub use vector::Vector;
+pub use view::recording::Recorded;
 pub use worker::Failure;
 pub use world::Layout;

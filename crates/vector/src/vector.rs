@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::arrays::{Array, Arrays, Item};
 use crate::declaration::Declaration;
+use crate::recordings::Recording;
 use crate::worker::{Command, Failure, Worker};
 use crate::world::Layout;
 
@@ -91,6 +92,20 @@ impl Vector {
     /// Draws the pictures of the camera at that place in all worlds.
     pub fn draw(&mut self, camera: usize) -> Vec<Failure> {
         self.run(|arrays| Command::Draw(arrays, camera))
+    }
+
+    /// Records the next episodes of worlds, each in a file, which is complete after [`finish_recordings`](Self::finish_recordings), when
+    /// another episode has begun, and when the worlds are dropped. The failures are of files that cannot be written; such an episode is not
+    /// recorded.
+    pub fn record(&mut self, recordings: &[Recording]) -> Vec<Failure> {
+        let recordings: Arc<[_]> = recordings.into();
+        self.run(|_| Command::Record(Arc::clone(&recordings)))
+    }
+
+    /// Completes the recordings of these worlds' present episodes; the failures are of files that could not be written.
+    pub fn finish_recordings(&mut self, worlds: &[usize]) -> Vec<Failure> {
+        let worlds: Arc<[_]> = worlds.into();
+        self.run(|_| Command::FinishRecordings(Arc::clone(&worlds)))
     }
 
     fn run(&self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {

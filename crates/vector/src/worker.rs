@@ -9,6 +9,7 @@ use simulator::Simulator;
 
 use crate::arrays::Arrays;
 use crate::declaration::Declaration;
+use crate::recordings::Recording;
 use crate::world::{Layout, World};
 
 /// A world that could not go on.
@@ -36,6 +37,10 @@ pub(crate) enum Command {
     Begin(Arc<Arrays>, Arc<[(usize, Option<u32>)]>),
     /// Draw the pictures of the camera at that place.
     Draw(Arc<Arrays>, usize),
+    /// Record the next episodes of worlds.
+    Record(Arc<[Recording]>),
+    /// Complete the recordings of these worlds' present episodes.
+    FinishRecordings(Arc<[usize]>),
 }
 
 /// What a thread has done: the worlds that failed meanwhile.
@@ -147,19 +152,13 @@ fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
         }
         Command::Draw(arrays, camera) => {
             for (number, world) in worlds {
-                if let Err(reason) = world.draw(*number, *camera, arrays) {
-                    failures.push(Failure {
-                        world: *number,
-                        reason,
-                    });
-                }
+                let drawn = world.draw(*number, *camera, arrays);
+                failures.extend(failure(*number, drawn));
             }
         }
         Command::Begin(arrays, which) => {
-            let first = worlds.first().map_or(0, |(number, _)| *number);
             for (number, seed) in which.iter() {
-                let own = number.checked_sub(first);
-                let Some((_, world)) = own.and_then(|own| worlds.get_mut(own)) else {
+                let Some(world) = own(worlds, *number) else {
                     continue;
                 };
                 if let Some(seed) = seed {
@@ -168,14 +167,35 @@ fn perform(worlds: &mut [(usize, World)], command: &Command) -> Done {
                 note(&mut failures, arrays, *number, world.begin(*number, arrays));
             }
         }
+        Command::Record(recordings) => {
+            for recording in recordings.iter() {
+                let recorded = own(worlds, recording.world).map(|world| world.record(recording));
+                failures.extend(recorded.and_then(|recorded| failure(recording.world, recorded)));
+            }
+        }
+        Command::FinishRecordings(which) => {
+            for number in which.iter() {
+                let finished = own(worlds, *number).map(World::finish_recording);
+                failures.extend(finished.and_then(|finished| failure(*number, finished)));
+            }
+        }
     }
     failures
+}
+
+/// The world with that number, if it is one of this thread.
+fn own(worlds: &mut [(usize, World)], number: usize) -> Option<&mut World> {
+    let first = worlds.first()?.0;
+    let (_, world) = worlds.get_mut(number.checked_sub(first)?)?;
+    Some(world)
 }
 
 /// Notes how the step of a world or the beginning of its episode has ended.
 fn note(failures: &mut Done, arrays: &Arrays, world: usize, result: Result<(), String>) {
     arrays.failed.set(world, result.is_err().into());
-    if let Err(reason) = result {
-        failures.push(Failure { world, reason });
-    }
+    failures.extend(failure(world, result));
+}
+
+fn failure(world: usize, result: Result<(), String>) -> Option<Failure> {
+    result.err().map(|reason| Failure { world, reason })
 }

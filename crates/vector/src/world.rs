@@ -12,13 +12,14 @@ use script::{Console, LogLine, SimulationState};
 use simulator::{Simulator, Snapshot};
 
 use crate::arrays::{Arrays, Item};
-use crate::declaration::{Action, Camera, Declaration, Quantity, Reset, Target};
+use crate::declaration::{Camera, Declaration, Reset};
 use crate::expressions::Expressions;
 use crate::quantities::{Readers, Writers, object};
+use crate::recordings::{Recording, Recordings};
 use crate::variations::Variations;
 
 /// How wide the rows of the arrays are. All worlds have the same.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// Numbers of each observation.
     pub observations: Vec<usize>,
@@ -30,11 +31,14 @@ pub struct Layout {
     pub images: Vec<[u32; 2]>,
     /// Whether episodes begin with a snapshot.
     pub has_snapshot: bool,
+    /// Simulated seconds of an action.
+    pub action_duration: f64,
 }
 
 /// A simulator and its episodes.
 pub(crate) struct World {
     simulator: Simulator,
+    recordings: Recordings,
     expressions: Expressions,
     observations: Readers,
     infos: Readers,
@@ -106,7 +110,7 @@ impl World {
             let settings = &mut simulator.scene_mut();
             settings.modify_settings(|settings| settings.time_step = step);
         }
-        let expressions = expressions(&mut simulator, declaration)?;
+        let expressions = Expressions::declared(&mut simulator, declaration)?;
         let variations = Variations::new(&mut simulator, &expressions, &declaration.variations)?;
         let actions = Writers::new(&mut simulator, &expressions, &declaration.actions)?;
         let score = Score::new(&mut simulator, &expressions, declaration)?;
@@ -127,6 +131,7 @@ impl World {
         };
         Ok(Self {
             simulator,
+            recordings: Recordings::default(),
             expressions,
             observations,
             infos,
@@ -152,6 +157,8 @@ impl World {
             actions: self.actions.width(),
             images: self.cameras.iter().map(|view| view.size).collect(),
             has_snapshot: self.start.is_some(),
+            action_duration: self.simulator.scene().settings().time_step
+                * self.steps_per_action as f64,
         }
     }
 
@@ -171,6 +178,7 @@ impl World {
     }
 
     fn begin_episode(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.finish_recording()?;
         self.start_again()?;
         let errors = self.simulator.errors();
         let delay =
@@ -181,6 +189,7 @@ impl World {
             self.expressions.run(&mut self.simulator, begin, &[])?;
         }
         self.errors.check(&self.simulator, errors)?;
+        self.recordings.begin(&self.simulator)?;
         self.steps = 0;
         self.observe(number, arrays)?;
         arrays.rewards.set(number, 0.0);
@@ -217,7 +226,27 @@ impl World {
     pub(crate) fn step(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
         self.errors.0.borrow_mut().clear();
         let stepped = self.act_and_observe(number, arrays);
-        stepped.map_err(|reason| self.errors.explained(reason))
+        stepped.map_err(|reason| {
+            let reason = self.errors.explained(reason);
+            self.recordings.mark_failure(&reason);
+            reason
+        })
+    }
+
+    /// Records the next episode in a file.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(crate) fn record(&mut self, recording: &Recording) -> Result<(), String> {
+        self.recordings.open(recording)
+    }
+
+    /// Completes the recording of the present episode, if there is one.
+    ///
+    /// # Errors
+    /// When it could not be written, at any time.
+    pub(crate) fn finish_recording(&mut self) -> Result<(), String> {
+        self.recordings.finish(&self.simulator)
     }
 
     fn act_and_observe(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
@@ -300,6 +329,14 @@ impl World {
     }
 }
 
+impl Drop for World {
+    /// An episode that nobody ended has its recording all the same.
+    fn drop(&mut self) {
+        // Nobody is left who could be told of errors.
+        let _ = self.finish_recording();
+    }
+}
+
 impl Errors {
     /// A reason that only says that a script has failed becomes what the log says.
     fn explained(&self, reason: String) -> String {
@@ -340,40 +377,6 @@ impl Score {
         let is_there = reward.is_some() || terminated.is_some();
         Ok(is_there.then_some(Self { reward, terminated }))
     }
-}
-
-/// The script for what is declared in Lua, if anything is.
-fn expressions(
-    simulator: &mut Simulator,
-    declaration: &Declaration,
-) -> Result<Expressions, String> {
-    let is_quantity = |quantity: &Quantity| matches!(quantity, Quantity::Expression(_));
-    let texts = [
-        &declaration.reward,
-        &declaration.terminated,
-        &declaration.prepare,
-        &declaration.begin,
-    ];
-    let is_needed = texts.into_iter().any(Option::is_some)
-        || declaration.observations.iter().any(is_quantity)
-        || declaration.infos.iter().any(is_quantity)
-        || declaration
-            .actions
-            .iter()
-            .any(|action| matches!(action, Action::Statement(_)))
-        || declaration
-            .variations
-            .iter()
-            .any(|variation| matches!(variation.target, Target::Statement(_)));
-    if !is_needed {
-        return Ok(Expressions::none());
-    }
-    let expressions = Expressions::new(simulator)?;
-    if let Some(text) = &declaration.prepare {
-        let number = expressions.compile(simulator, "the preparation", "", text)?;
-        expressions.run(simulator, number, &[])?;
-    }
-    Ok(expressions)
 }
 
 fn cameras(simulator: &mut Simulator, cameras: &[Camera]) -> Result<Vec<Viewpoint>, String> {

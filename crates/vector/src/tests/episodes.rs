@@ -1,7 +1,7 @@
 //! What worlds do in their episodes.
 
 use super::{SCENE, bits, declared, seeds, step, vector};
-use crate::{Distribution, Quantity, Reset, Scale, Target, Variation};
+use crate::{Distribution, Quantity, Recorded, Recording, Reset, Scale, Target, Variation};
 
 fn mass_variation() -> Variation {
     Variation {
@@ -205,4 +205,63 @@ end"
         step(&mut all, &[0.0, 50.0]);
     }
     assert_ne!(picture(&all, 0), picture(&all, 1));
+}
+
+/// A recorded world does what it does unrecorded, and each file can be played from its beginning to its end.
+#[test]
+fn episodes_are_recorded() {
+    for reset in [Reset::Snapshot, Reset::Start] {
+        let (folder, declaration) = declared(SCENE);
+        let declaration = crate::Declaration {
+            reset,
+            ..declaration
+        };
+        let path = |name: &str| folder.path().join(name);
+        let recording = |world: usize, name: &str| Recording {
+            world,
+            path: path(name),
+            recorded: Recorded::Scene,
+        };
+        let run = |names: &[(usize, &str)]| {
+            let mut all = vector(&declaration, 3, 2);
+            let wanted: Vec<_> = names
+                .iter()
+                .map(|(world, name)| recording(*world, name))
+                .collect();
+            assert_eq!(all.record(&wanted), []);
+            assert_eq!(all.begin(&seeds(3, 5)), []);
+            let mut seen: Vec<_> = (0..4).map(|_| step(&mut all, &[1.0; 3])).collect();
+            assert_eq!(all.finish_recordings(&[0]), []);
+            seen.extend((0..3).map(|_| step(&mut all, &[1.0; 3])));
+            assert_eq!(all.begin(&[(0, None), (1, None), (2, None)]), []);
+            seen.push(step(&mut all, &[0.0; 3]));
+            seen
+        };
+        assert_eq!(run(&[(0, "first.swr"), (2, "third.swr")]), run(&[]));
+        for (name, end) in [("first.swr", 0.2), ("third.swr", 0.35)] {
+            let file = std::fs::File::open(path(name)).expect("it was written");
+            let recording = view::recording::Recording::open(std::io::BufReader::new(file));
+            let recording = recording.unwrap_or_else(|error| panic!("{error}"));
+            let (begin, last) = (recording.index().start, recording.index().end);
+            assert!(begin == 0.0 && (last - end).abs() < 1e-9, "{name}: {last}");
+        }
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named() {
+    let (folder, declaration) = declared(SCENE);
+    let mut all = vector(&declaration, 2, 2);
+    let path = folder.path().join("nowhere/a.swr");
+    let failures = all.record(&[Recording {
+        world: 1,
+        path,
+        recorded: Recorded::Scene,
+    }]);
+    assert!(
+        failures.len() == 1 && failures[0].world == 1,
+        "{failures:?}"
+    );
+    assert!(failures[0].reason.contains("nowhere/a.swr"), "{failures:?}");
+    assert_eq!(all.begin(&seeds(2, 1)), []);
 }

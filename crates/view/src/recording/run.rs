@@ -61,6 +61,8 @@ impl<W: Write + 'static> RunRecorder<W> {
             return Err(error);
         }
         let recorder = state.recorder.take().expect("it goes with a failure only");
+        // Where there are snapshots, the closure that holds this state stays.
+        (state.signals, state.contacts) = Default::default();
         sim.with_present(|present| recorder.finish(present.now.scene, &present.lines))
     }
 }
