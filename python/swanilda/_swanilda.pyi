@@ -33,6 +33,7 @@ class Simulator(Requires):
     errors: int
     state: str
     is_open: bool
+    _is_stopping: bool
     def __init__(
         self,
         scene: str | PathLike[str] | None = None,

@@ -168,7 +168,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._count += 1
         observation = self._observe()
         reward = float(self._reward(observation, action))
-        ended, is_long = bool(self._terminated(observation)), self._count >= self._max_steps
+        ended = bool(self._terminated(observation)) or self.simulator._is_stopping
+        is_long = self._count >= self._max_steps
         if ended or is_long:
             self.simulator.end_recording()
         return observation, reward, ended, is_long, {}

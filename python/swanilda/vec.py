@@ -224,7 +224,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if unwritable := self._record(which, options.get("record")):
             raise WorldError(unwritable)
         chosen = ((world, seeds[world]) for world in which)
-        failures = self._vector.begin([(world, None if each is None else int(each) % 2**32) for world, each in chosen])
+        failures = self._run(self._vector.begin, [(world, None if each is None else int(each) % 2**32) for world, each in chosen])
         self._recorder.count(which)
         self._over[list(which)] = False
         self._end_failed(failures, numpy.zeros(self.num_envs, bool))
@@ -239,7 +239,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self._arrays["resets"][...] = began
         beginning = numpy.flatnonzero(began).tolist()
         _warn(self._record(beginning))
-        failures = self._vector.step()
+        failures = self._run(self._vector.step)
         self._recorder.count(beginning)
         rewards, terminated, truncated = self._scores(given, began)
         self._over = terminated | truncated
@@ -250,6 +250,14 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if self._mode == AutoresetMode.SAME_STEP and self._over.any():
             self._begin_again(infos)
         return self._observe(), rewards, terminated, truncated, infos
+
+    def _run(self, work: Callable[..., list[tuple[int, str]]], *args: Any) -> list[tuple[int, str]]:
+        """The failures of what worlds do. Those that ctrl-c interrupts begin another episode in their next step."""
+        try:
+            return work(*args)
+        except KeyboardInterrupt:
+            self._over = self._arrays["failed"] | self._arrays["terminated"] | self._arrays["truncated"]
+            raise
 
     def _record(self, worlds: Sequence[int], named: Mapping[int, str | os.PathLike[str]] | None = None) -> list[tuple[int, str]]:
         """Opens the files of episodes that begin and are recorded; those that cannot be written."""
@@ -304,7 +312,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         infos["final_info"], infos["_final_info"] = self._info(), self._over.copy()
         over = numpy.flatnonzero(self._over).tolist()
         _warn(self._record(over))
-        failures = self._vector.begin([(world, None) for world in over])
+        failures = self._run(self._vector.begin, [(world, None) for world in over])
         self._recorder.count(over)
         self._over[:] = False
         self._end_failed(failures, numpy.zeros(self.num_envs, bool))

@@ -158,7 +158,9 @@ impl Args {
         worlds: usize,
         threads: usize,
     ) -> Result<Measured, Failure> {
-        let mut vector = Vector::new(self.declaration(options), worlds, threads)?;
+        // Ctrl-c ends the program.
+        let wants_end = Box::new(|| false);
+        let mut vector = Vector::new(self.declaration(options), worlds, threads, wants_end)?;
         let all: Vec<(usize, Option<u32>)> = (0..worlds).map(|world| (world, None)).collect();
         fail(vector.begin(&all))?;
         let (began, mut steps) = (now(), 0);

@@ -15,7 +15,7 @@ def exported(path):
     subprocess.run([os.environ["SWANILDA_BIN"], "export", path, "--mcap", file], check=True, timeout=60)
     times, frames, texts = set(), set(), []
     with open(file, "rb") as opened:
-        for _, channel, message, content in reader.make_reader(opened, [decoder.DecoderFactory()]).iter_decoded_messages():
+        for _, channel, message, content in reader.make_reader(opened, decoder_factories=[decoder.DecoderFactory()]).iter_decoded_messages():
             if channel.topic == "/tf":
                 times.add(round(message.log_time / 1e9, 6))
                 frames |= {transform.child_frame_id for transform in content.transforms}

@@ -5,6 +5,7 @@ import math
 import multiprocessing
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import threading
@@ -561,3 +562,29 @@ def test_code_without_a_purpose_is_refused(simulator, sim):
             sim.setObjectPosition(*bad)
         except swanilda.Error:
             pass
+
+
+def by_ctrl_c(call):
+    """Calls what ctrl-c ends a moment later."""
+    threading.Timer(0.2, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        call()
+
+
+@pytest.mark.parametrize("callback", ["sysCall_actuation", "sysCall_thread"])
+def test_ctrl_c_ends_a_script_that_never_ends(simulator, callback):
+    simulator.add_script(f"function {callback}() while true do pcall(function() while true do end end) end end")
+    other = simulator.add_script("function f() while true do end end")
+    simulator.start()
+    by_ctrl_c(simulator.step)
+    by_ctrl_c(lambda: other.f())
+    simulator.stop()
+    simulator.start()
+    assert simulator.step() == 1
+
+
+def test_ctrl_c_ends_many_slow_steps(simulator):
+    simulator.add_script("function sysCall_actuation() local t = os.clock() while os.clock() < t + 0.05 do end end")
+    simulator.start()
+    by_ctrl_c(lambda: simulator.step(10**6))
+    assert simulator.errors == 0 and 0 < simulator.steps < 32

@@ -11,6 +11,7 @@ mod console;
 mod convert;
 mod errors;
 mod host;
+mod interruption;
 mod library;
 mod lua_tests;
 mod making;

@@ -21,7 +21,7 @@ pub fn made(options: Options, quiet: bool) -> World {
     let builder = if quiet {
         builder
     } else {
-        builder.console(Box::new(PythonConsole))
+        builder.console(Box::new(PythonConsole(Rc::clone(&shared))))
     };
     let mut simulator = builder.build();
     let (functions, exceptions) = (Rc::clone(&callables), Rc::clone(&shared));

@@ -9,7 +9,7 @@ use scene::Data;
 use swanilda::{ApiFunction, ModuleMember, Progress, SimulationState};
 
 use crate::worlds::{Speaker, World};
-use crate::{convert, errors, worlds};
+use crate::{convert, errors, interruption, worlds};
 
 /// A module as scripts get it from `require`: functions and constants are attributes.
 #[pyclass(frozen, dict, module = "swanilda")]
@@ -34,7 +34,7 @@ impl Module {
     /// # Errors
     /// As that of `require` in scripts.
     pub fn require(py: Python<'_>, world: u64, script: Option<i64>, name: &str) -> PyResult<Self> {
-        let required = py.detach(|| -> PyResult<_> {
+        let required = interruption::detached(py, || -> PyResult<_> {
             Ok(worlds::get(world)?.speaker(script)?.caller.require(name))
         })?;
         required.map_err(|error| errors::plain(&error))?;
@@ -166,9 +166,13 @@ impl Function {
         py: Python<'_>,
         work: impl FnOnce(&Speaker) -> Result<T, swanilda::Error> + Send,
     ) -> PyResult<T> {
-        let result = py.detach(|| -> PyResult<_> {
+        let result = interruption::detached(py, || -> PyResult<_> {
             Ok(work(&*worlds::get(self.world)?.speaker(self.script)?))
         })?;
+        if result.is_err() {
+            // Ctrl-c comes before what it has led to.
+            py.check_signals()?;
+        }
         result.map_err(|error| self.error(&error))
     }
 
@@ -203,7 +207,7 @@ impl Function {
                 "in {name}: it waits for steps of a simulation that does not run: start() it first."
             )));
         }
-        py.detach(|| -> PyResult<()> {
+        interruption::detached(py, || -> PyResult<()> {
             worlds::get(self.world)?.borrow()?.iterate();
             Ok(())
         })?;

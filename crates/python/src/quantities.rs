@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use vector::{Action, Expressions, Quantity, Readers, Writers};
 
 use crate::errors::Error;
+use crate::interruption;
 use crate::vector::{Named, action, quantity};
 use crate::worlds;
 
@@ -57,7 +58,7 @@ impl Quantities {
 
     /// The numbers of all quantities.
     fn read(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
-        let read = py.detach(|| -> PyResult<_> {
+        let read = interruption::detached(py, || -> PyResult<_> {
             let world = worlds::get(self.simulator)?;
             let mut simulator = world.borrow()?;
             Ok(self.readers.read(&mut simulator, &self.expressions))
@@ -68,7 +69,7 @@ impl Quantities {
 
     /// Writes a number for each action.
     fn write(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<()> {
-        let written = py.detach(|| -> PyResult<_> {
+        let written = interruption::detached(py, || -> PyResult<_> {
             let world = worlds::get(self.simulator)?;
             let mut simulator = world.borrow()?;
             Ok(self

@@ -11,8 +11,7 @@ use crate::options::recorded;
 use crate::worlds::World;
 
 /// Why a simulator that is recorded does not go back.
-pub const GOES_FORWARD: &str =
-    "a simulator that is recorded cannot be brought back and has no branches: end_recording() first.";
+pub const GOES_FORWARD: &str = "a simulator that is recorded cannot be brought back and has no branches: end_recording() first.";
 
 /// A file that gets every step.
 pub struct Recording {

@@ -9,10 +9,12 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 use scene::Handle;
+use script::wall_clock;
 use swanilda::{Channels, Options, ScriptKind, SimulationState, Viewer};
 
 use crate::branches::{NOT_SHOWN, Snapshot};
 use crate::errors::{self, Error};
+use crate::interruption;
 use crate::making::made;
 use crate::module::Module;
 use crate::options::{Given, check_time_step, kind_of};
@@ -21,8 +23,9 @@ use crate::script::PythonScript;
 use crate::vector::Named;
 use crate::worlds::{self, Shared, World};
 
-/// Steps between two looks at signals, such as that of ctrl-c.
+/// Steps between two checks of signals, such as that of ctrl-c; fewer where they take longer than [`TIME_AT_ONCE`].
 const STEPS_AT_ONCE: u64 = 32;
+const TIME_AT_ONCE: Duration = Duration::from_millis(50);
 
 /// A simulator, of the thread that makes it.
 #[pyclass(subclass, frozen, module = "swanilda._swanilda")]
@@ -58,6 +61,7 @@ impl Simulator {
         if let Some(number) = _branch {
             return Ok(Self { number });
         }
+        interruption::watch(py)?;
         let kind = kind_of(kind)?;
         check_time_step(time_step)?;
         let given = Given {
@@ -91,7 +95,7 @@ impl Simulator {
         let mut left = count;
         while left > 0 && world.main.caller.state().is_advancing() {
             let now = left.min(STEPS_AT_ONCE);
-            let ran = py.detach(|| steps_of(number, now))?;
+            let ran = interruption::detached(py, || steps_of(number, now))?;
             left -= ran.min(left);
             world.raise()?;
             py.check_signals()?;
@@ -109,7 +113,7 @@ impl Simulator {
     fn serve(&self, py: Python<'_>, timeout: f64) -> PyResult<()> {
         let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
         let number = self.number;
-        py.detach(|| -> PyResult<()> {
+        interruption::detached(py, || -> PyResult<()> {
             let world = worlds::get(number)?;
             let mut simulator = world.borrow()?;
             simulator.iterate();
@@ -134,7 +138,7 @@ impl Simulator {
     fn _attend(&self, py: Python<'_>, timeout: f64) -> PyResult<bool> {
         let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
         let number = self.number;
-        py.detach(|| -> PyResult<()> {
+        interruption::detached(py, || -> PyResult<()> {
             let world = worlds::get(number)?;
             world.show(&mut *world.borrow()?, timeout);
             Ok(())
@@ -258,6 +262,12 @@ impl Simulator {
         })
     }
 
+    /// Whether the end of the simulation was requested, or has come.
+    #[getter]
+    fn _is_stopping(&self) -> PyResult<bool> {
+        Ok(self.world()?.main.caller.state().is_stopping())
+    }
+
     /// A module, as scripts get it; in the name of the script with that handle, if there is one.
     #[pyo3(signature = (name, script=None))]
     fn require(&self, py: Python<'_>, name: &str, script: Option<i64>) -> PyResult<Module> {
@@ -321,12 +331,16 @@ impl Simulator {
         ];
         all.extend(crate::convert::arguments(args, &world.main.callables)?);
         let number = self.number;
-        let result = py.detach(|| -> PyResult<_> {
+        let result = interruption::detached(py, || -> PyResult<_> {
             let world = worlds::get(number)?;
             let call = world.main.caller.function("sim.callScriptFunction");
             Ok(world.main.caller.call(&call, &all))
         })?;
         world.raise()?;
+        if result.is_err() {
+            // Ctrl-c comes before what it has led to.
+            py.check_signals()?;
+        }
         crate::convert::results(
             py,
             result.map_err(|error| errors::in_function(function, &error))?,
@@ -380,8 +394,9 @@ impl SendRc {
 fn steps_of(number: u64, count: u64) -> PyResult<u64> {
     let world = worlds::get(number)?;
     let mut simulator = world.borrow()?;
-    let mut ran = 0;
+    let (mut ran, began) = (0, wall_clock::now());
     while ran < count
+        && began.elapsed() < TIME_AT_ONCE
         && simulator.state().is_advancing()
         && world.shared.exception.borrow().is_none()
     {
@@ -446,7 +461,7 @@ impl Simulator {
         work: impl FnOnce(&mut swanilda::Simulator) -> T + Send,
     ) -> PyResult<T> {
         let number = self.number;
-        py.detach(move || -> PyResult<T> {
+        interruption::detached(py, move || -> PyResult<T> {
             let world = worlds::get(number)?;
             let mut simulator = world.borrow()?;
             Ok(work(&mut simulator))

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use swanilda::Options;
 use vector::{
-    Action, Arrays, Camera, Declaration, Distribution, Failure, Quantity, Recording, Reset, Scale, Target,
-    Variation,
+    Action, Arrays, Camera, Declaration, Distribution, Failure, Quantity, Recording, Reset, Scale,
+    Target, Variation, WantsEnd,
 };
 
 use crate::errors::Error;
@@ -191,6 +191,32 @@ pub struct Vector {
     arrays: Arc<Arrays>,
     layout: vector::Layout,
     count: usize,
+    signals: Signals,
+}
+
+/// What signals of the system raise in Python while worlds are busy, such as ctrl-c.
+#[derive(Default)]
+struct Signals(Arc<Mutex<Option<PyErr>>>);
+
+impl Signals {
+    /// Whether one came.
+    fn wants_end(&self) -> WantsEnd {
+        let raised = Arc::clone(&self.0);
+        Box::new(move || {
+            let checked = Python::try_attach(|py| py.check_signals()).unwrap_or(Ok(()));
+            let error = checked.err();
+            let came = error.is_some();
+            if came {
+                *raised.lock().unwrap_or_else(PoisonError::into_inner) = error;
+            }
+            came
+        })
+    }
+
+    fn raise(&self) -> PyResult<()> {
+        let raised = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        raised.map_or(Ok(()), Err)
+    }
 }
 
 #[pymethods]
@@ -225,9 +251,13 @@ impl Vector {
         };
         let options = given.options(Some(&declared.scene));
         let declaration = declared.declaration(options)?;
-        let vector = py.detach(|| vector::Vector::new(declaration, count, threads));
+        let signals = Signals::default();
+        let wants_end = signals.wants_end();
+        let vector = py.detach(|| vector::Vector::new(declaration, count, threads, wants_end));
+        signals.raise()?;
         let vector = vector.map_err(|failure| Error::new_err(failure.to_string()))?;
         Ok(Self {
+            signals,
             arrays: Arc::clone(vector.arrays()),
             layout: vector.layout().clone(),
             count,
@@ -300,13 +330,20 @@ impl Vector {
     }
 
     /// Begins an episode in worlds, with a seed where there is one; the worlds that failed, and why.
-    fn begin(&self, py: Python<'_>, worlds: Vec<(usize, Option<u32>)>) -> Vec<(usize, String)> {
-        py.detach(|| pairs(self.locked().begin(&worlds)))
+    fn begin(
+        &self,
+        py: Python<'_>,
+        worlds: Vec<(usize, Option<u32>)>,
+    ) -> PyResult<Vec<(usize, String)>> {
+        let failures = py.detach(|| self.locked().begin(&worlds));
+        self.signals.raise()?;
+        Ok(pairs(failures))
     }
 
     /// Steps all worlds; those that failed, and why.
     fn step(&self, py: Python<'_>) -> PyResult<Vec<(usize, String)>> {
         let stepped = py.detach(|| self.locked().step());
+        self.signals.raise()?;
         stepped.map(pairs).map_err(|(world, place)| {
             PyValueError::new_err(format!(
                 "action {place} of world {world} is no finite number; nothing was stepped"
@@ -315,7 +352,11 @@ impl Vector {
     }
 
     /// Records the next episodes of worlds in files, with the images of vision sensors where that is true; the files that cannot be written.
-    fn record(&self, py: Python<'_>, episodes: Vec<(usize, PathBuf, bool)>) -> Vec<(usize, String)> {
+    fn record(
+        &self,
+        py: Python<'_>,
+        episodes: Vec<(usize, PathBuf, bool)>,
+    ) -> Vec<(usize, String)> {
         let recording = |(world, path, images)| Recording {
             world,
             path,
@@ -337,7 +378,9 @@ impl Vector {
                 "there is no camera {camera}."
             )));
         }
-        Ok(py.detach(|| pairs(self.locked().draw(camera))))
+        let failures = py.detach(|| self.locked().draw(camera));
+        self.signals.raise()?;
+        Ok(pairs(failures))
     }
 }
 

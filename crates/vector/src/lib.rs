@@ -7,8 +7,10 @@
 mod arrays;
 mod declaration;
 mod expressions;
+mod interruption;
 mod quantities;
 mod recordings;
+mod score;
 mod variations;
 mod vector;
 mod worker;
@@ -22,6 +24,7 @@ pub use declaration::{
     Action, Camera, Declaration, Distribution, Quantity, Reset, Scale, Target, Variation,
 };
 pub use expressions::Expressions;
+pub use interruption::WantsEnd;
 pub use quantities::{Readers, Writers};
 pub use recordings::Recording;
 pub use vector::Vector;

@@ -53,7 +53,8 @@ fn declared(code: &str) -> (tempfile::TempDir, Declaration) {
 }
 
 fn vector(declaration: &Declaration, count: usize, threads: usize) -> Vector {
-    Vector::new(declaration.clone(), count, threads).unwrap_or_else(|failure| panic!("{failure}"))
+    let made = Vector::new(declaration.clone(), count, threads, Box::new(|| false));
+    made.unwrap_or_else(|failure| panic!("{failure}"))
 }
 
 fn seeds(count: usize, first: u32) -> Vec<(usize, Option<u32>)> {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::arrays::{Array, Arrays, Item};
 use crate::declaration::Declaration;
+use crate::interruption::{StopSign, WantsEnd, gather};
 use crate::recordings::Recording;
 use crate::worker::{Command, Failure, Worker};
 use crate::world::Layout;
@@ -14,34 +15,39 @@ pub struct Vector {
     arrays: Arc<Arrays>,
     layout: Layout,
     count: usize,
+    stop: StopSign,
+    wants_end: WantsEnd,
 }
 
 impl Vector {
-    /// `count` worlds on `threads` threads; their first episodes begin with [`begin`](Self::begin).
+    /// `count` worlds on `threads` threads; their first episodes begin with [`begin`](Self::begin). `wants_end` is asked now and whenever
+    /// something takes long.
     ///
     /// # Errors
     /// When there are none, or one cannot be made.
-    pub fn new(declaration: Declaration, count: usize, threads: usize) -> Result<Self, Failure> {
+    pub fn new(
+        declaration: Declaration,
+        count: usize,
+        threads: usize,
+        mut wants_end: WantsEnd,
+    ) -> Result<Self, Failure> {
         let fault = |reason: String| Failure { world: 0, reason };
         if count == 0 {
             return Err(fault("there are no worlds.".into()));
         }
-        let declaration = Arc::new(declaration);
-        let threads = threads.clamp(1, count);
-        let bound = |thread: usize| thread * count / threads;
-        let start = |thread: usize| {
-            let worlds = bound(thread)..bound(thread + 1);
-            Worker::start(Arc::clone(&declaration), worlds)
-        };
-        let workers: std::io::Result<Vec<Worker>> = (0..threads).map(start).collect();
+        let stop = StopSign::default();
+        let workers = start(&Arc::new(declaration), count, threads, &stop);
         let workers = workers.map_err(|error| fault(format!("there is no thread: {error}")))?;
-        let layouts: Result<Vec<Layout>, Failure> = workers.iter().map(Worker::layout).collect();
+        let layouts = gather(&workers, &stop, &mut wants_end, Worker::layout);
+        let layouts: Result<Vec<Layout>, Failure> = layouts.into_iter().collect();
         let layout = layouts?.swap_remove(0);
         Ok(Self {
             workers,
             arrays: Arc::new(arrays(&layout, count)),
             layout,
             count,
+            stop,
+            wants_end,
         })
     }
 
@@ -108,12 +114,29 @@ impl Vector {
         self.run(|_| Command::FinishRecordings(Arc::clone(&worlds)))
     }
 
-    fn run(&self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {
+    fn run(&mut self, command: impl Fn(Arc<Arrays>) -> Command) -> Vec<Failure> {
         for worker in &self.workers {
             worker.send(command(Arc::clone(&self.arrays)));
         }
-        self.workers.iter().flat_map(Worker::wait).collect()
+        let done = gather(&self.workers, &self.stop, &mut self.wants_end, Worker::wait);
+        done.into_iter().flatten().collect()
     }
+}
+
+/// Starts the threads; each has as many worlds as the others, or one more.
+fn start(
+    declaration: &Arc<Declaration>,
+    count: usize,
+    threads: usize,
+    stop: &StopSign,
+) -> std::io::Result<Vec<Worker>> {
+    let threads = threads.clamp(1, count);
+    let bound = |thread: usize| thread * count / threads;
+    let start = |thread: usize| {
+        let worlds = bound(thread)..bound(thread + 1);
+        Worker::start(Arc::clone(declaration), worlds, stop.clone())
+    };
+    (0..threads).map(start).collect()
 }
 
 fn arrays(layout: &Layout, count: usize) -> Arrays {

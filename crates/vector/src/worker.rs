@@ -1,14 +1,18 @@
 //! A thread with its worlds.
 
 use std::ops::Range;
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
+use io::signals::InterruptibleThread;
+use script::interrupt_running_code;
 use simulator::Simulator;
 
 use crate::arrays::Arrays;
 use crate::declaration::Declaration;
+use crate::interruption::StopSign;
 use crate::recordings::Recording;
 use crate::world::{Layout, World};
 
@@ -53,6 +57,8 @@ pub(crate) struct Worker {
     done: Receiver<Done>,
     made: Receiver<Result<Layout, Failure>>,
     thread: Option<JoinHandle<()>>,
+    /// How signals reach the thread, which lives as long as this.
+    scripts: Arc<OnceLock<InterruptibleThread>>,
     first: usize,
 }
 
@@ -61,13 +67,17 @@ impl Worker {
     pub(crate) fn start(
         declaration: Arc<Declaration>,
         worlds: Range<usize>,
+        stop: StopSign,
     ) -> std::io::Result<Self> {
         let (commands, received) = channel();
         let (says_done, done) = channel();
         let (says_made, made) = channel();
         let first = worlds.start;
+        let scripts = Arc::<OnceLock<_>>::default();
+        let of_this_thread = Arc::clone(&scripts);
         let run = move || {
-            let made = make(&declaration, worlds);
+            of_this_thread.get_or_init(|| InterruptibleThread::current(interrupt_running_code));
+            let made = make(&declaration, worlds, &stop);
             let layout = made.as_ref().map(|worlds| worlds[0].1.layout());
             let _ = says_made.send(layout.map_err(Clone::clone));
             let Ok(mut worlds) = made else { return };
@@ -87,14 +97,18 @@ impl Worker {
             done,
             made,
             thread: Some(thread),
+            scripts,
             first,
         })
     }
 
-    /// The layout of its worlds, when they are there.
-    pub(crate) fn layout(&self) -> Result<Layout, Failure> {
-        let made = self.made.recv();
-        made.unwrap_or_else(|_| Err(self.has_ended()))
+    /// The layout of its worlds; None where they are not there in time.
+    pub(crate) fn layout(&self, limit: Duration) -> Option<Result<Layout, Failure>> {
+        match self.made.recv_timeout(limit) {
+            Ok(made) => Some(made),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(Err(self.has_ended())),
+        }
     }
 
     /// Says what is to be done; [`wait`](Self::wait) follows.
@@ -105,9 +119,20 @@ impl Worker {
         }
     }
 
-    pub(crate) fn wait(&self) -> Vec<Failure> {
-        let done = self.done.recv();
-        done.unwrap_or_else(|_| vec![self.has_ended()])
+    /// What it has done; None where it is not ready in time.
+    pub(crate) fn wait(&self, limit: Duration) -> Option<Vec<Failure>> {
+        match self.done.recv_timeout(limit) {
+            Ok(done) => Some(done),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(vec![self.has_ended()]),
+        }
+    }
+
+    /// Ends the script that runs, if one does, with an error.
+    pub(crate) fn interrupt_script(&self) {
+        if let Some(scripts) = self.scripts.get() {
+            scripts.wake();
+        }
     }
 
     fn has_ended(&self) -> Failure {
@@ -129,10 +154,14 @@ impl Drop for Worker {
     }
 }
 
-fn make(declaration: &Declaration, numbers: Range<usize>) -> Result<Vec<(usize, World)>, Failure> {
+fn make(
+    declaration: &Arc<Declaration>,
+    numbers: Range<usize>,
+    stop: &StopSign,
+) -> Result<Vec<(usize, World)>, Failure> {
     let make = |world| {
         let number = u32::try_from(world).unwrap_or_default();
-        let made = World::new(declaration, number).map(|made| (world, made));
+        let made = World::new(declaration, number, stop).map(|made| (world, made));
         made.map_err(|reason| Failure { world, reason })
     };
     numbers.map(make).collect()

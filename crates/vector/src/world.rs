@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use perception::vision::Channels;
 use rand_mt::Mt;
-use scene::{Data, Handle};
+use scene::Handle;
 use script::log::verbosity;
 use script::{Console, LogLine, SimulationState};
 use simulator::{Simulator, Snapshot};
@@ -14,8 +15,10 @@ use simulator::{Simulator, Snapshot};
 use crate::arrays::{Arrays, Item};
 use crate::declaration::{Camera, Declaration, Reset};
 use crate::expressions::Expressions;
+use crate::interruption::StopSign;
 use crate::quantities::{Readers, Writers, object};
 use crate::recordings::{Recording, Recordings};
+use crate::score::Score;
 use crate::variations::Variations;
 
 /// How wide the rows of the arrays are. All worlds have the same.
@@ -57,6 +60,11 @@ pub(crate) struct World {
     /// Actions that have not acted yet.
     delayed: VecDeque<Vec<f64>>,
     errors: Errors,
+    stop: StopSign,
+    declaration: Arc<Declaration>,
+    number: u32,
+    /// Something has gone wrong since it was made, or last brought back.
+    has_failed: bool,
 }
 
 /// A camera, and the size of its pictures.
@@ -64,12 +72,6 @@ struct Viewpoint {
     camera: Handle,
     size: [u32; 2],
     each_step: bool,
-}
-
-/// The numbers of the expressions for reward and end.
-struct Score {
-    reward: Option<i64>,
-    terminated: Option<i64>,
 }
 
 /// What calls of scripts return where the error is in the log.
@@ -94,13 +96,23 @@ impl World {
     ///
     /// # Errors
     /// When the scene cannot be read, one of its scripts fails, or something that is declared is not there.
-    pub(crate) fn new(declaration: &Declaration, number: u32) -> Result<Self, String> {
+    pub(crate) fn new(
+        declaration: &Arc<Declaration>,
+        number: u32,
+        stop: &StopSign,
+    ) -> Result<Self, String> {
+        stop.check()?;
         let errors = Errors::default();
-        let made = Self::made(declaration, number, &errors);
+        let made = Self::made(declaration, number, &errors, stop);
         made.map_err(|reason| errors.explained(reason))
     }
 
-    fn made(declaration: &Declaration, number: u32, errors: &Errors) -> Result<Self, String> {
+    fn made(
+        declaration: &Arc<Declaration>,
+        number: u32,
+        errors: &Errors,
+        stop: &StopSign,
+    ) -> Result<Self, String> {
         let console = Box::new(errors.clone());
         let mut simulator = Simulator::with_console(declaration.options.clone(), console);
         simulator
@@ -147,6 +159,10 @@ impl World {
             steps: 0,
             delayed: VecDeque::new(),
             errors: errors.clone(),
+            stop: stop.clone(),
+            declaration: Arc::clone(declaration),
+            number,
+            has_failed: false,
         })
     }
 
@@ -174,10 +190,11 @@ impl World {
     pub(crate) fn begin(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
         self.errors.0.borrow_mut().clear();
         let begun = self.begin_episode(number, arrays);
-        begun.map_err(|reason| self.errors.explained(reason))
+        begun.map_err(|reason| self.noted(reason))
     }
 
     fn begin_episode(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.stop.check()?;
         self.finish_recording()?;
         self.start_again()?;
         let errors = self.simulator.errors();
@@ -209,6 +226,9 @@ impl World {
                 .set_seed(seed)
                 .map_err(|error| error.to_string());
         }
+        if std::mem::take(&mut self.has_failed) {
+            self.make_again()?;
+        }
         if self.simulator.state() != SimulationState::Stopped {
             self.simulator.stop();
         }
@@ -219,6 +239,15 @@ impl World {
         self.errors.check(&self.simulator, errors)
     }
 
+    /// Opens the scene again: scripts that have failed do not begin anew with the simulation.
+    fn make_again(&mut self) -> Result<(), String> {
+        let mut again = Self::made(&self.declaration, self.number, &self.errors, &self.stop)?;
+        std::mem::swap(&mut self.random, &mut again.random);
+        std::mem::swap(&mut self.recordings, &mut again.recordings);
+        *self = again;
+        Ok(())
+    }
+
     /// Acts, steps, and writes what is observed. An episode also ends where a script stops the simulation.
     ///
     /// # Errors
@@ -226,11 +255,15 @@ impl World {
     pub(crate) fn step(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
         self.errors.0.borrow_mut().clear();
         let stepped = self.act_and_observe(number, arrays);
-        stepped.map_err(|reason| {
-            let reason = self.errors.explained(reason);
-            self.recordings.mark_failure(&reason);
-            reason
-        })
+        stepped.map_err(|reason| self.noted(reason))
+    }
+
+    /// Notes that the episode has failed; why, as users are to read it.
+    fn noted(&mut self, reason: String) -> String {
+        self.has_failed = true;
+        let reason = self.errors.explained(reason);
+        self.recordings.mark_failure(&reason);
+        reason
     }
 
     /// Records the next episode in a file.
@@ -250,22 +283,38 @@ impl World {
     }
 
     fn act_and_observe(&mut self, number: usize, arrays: &Arrays) -> Result<(), String> {
+        self.stop.check()?;
         let errors = self.simulator.errors();
         let given = arrays.actions.read(number);
         self.delayed.push_back(given.clone());
         let acts = self.delayed.pop_front().unwrap_or_default();
         self.actions
             .write(&mut self.simulator, &self.expressions, &acts)?;
-        self.simulator.step(self.steps_per_action);
+        self.advance()?;
         self.errors.check(&self.simulator, errors)?;
         self.steps += 1;
         let observed = self.observe(number, arrays)?;
-        let (reward, terminated) = self.score(observed, given)?;
-        let is_over = terminated || !self.simulator.state().is_advancing();
+        let (reward, terminated) = match &self.score {
+            Some(score) => score.of(&mut self.simulator, &self.expressions, observed, given)?,
+            None => (0.0, false),
+        };
+        let is_over = terminated || self.simulator.state().is_stopping();
         arrays.rewards.set(number, reward);
         arrays.terminated.set(number, is_over.into());
         let is_long = self.max_steps > 0 && self.steps >= self.max_steps;
         arrays.truncated.set(number, is_long.into());
+        Ok(())
+    }
+
+    /// Makes the steps of an action, fewer where a script ends the simulation.
+    fn advance(&mut self) -> Result<(), String> {
+        for step in 0..self.steps_per_action {
+            if step > 0 && self.simulator.state().is_stopping() {
+                break;
+            }
+            self.stop.check()?;
+            self.simulator.step(1);
+        }
         Ok(())
     }
 
@@ -303,30 +352,6 @@ impl World {
         }
         Ok(())
     }
-
-    fn score(&mut self, observed: Vec<f64>, actions: Vec<f64>) -> Result<(f64, bool), String> {
-        let Some(score) = &self.score else {
-            return Ok((0.0, false));
-        };
-        let args = [Data::from(observed), Data::from(actions)];
-        let mut run = |number: Option<i64>| {
-            number
-                .map(|number| self.expressions.run(&mut self.simulator, number, &args))
-                .transpose()
-        };
-        let reward = match run(score.reward)?.as_deref() {
-            None => 0.0,
-            Some([value]) if value.as_f64().is_some_and(f64::is_finite) => {
-                value.as_f64().unwrap_or_default()
-            }
-            Some(other) => return Err(format!("the reward is no finite number: {other:?}.")),
-        };
-        let terminated = match run(score.terminated)?.as_deref() {
-            None | Some([Data::Bool(false) | Data::Nil] | []) => false,
-            Some(_) => true,
-        };
-        Ok((reward, terminated))
-    }
 }
 
 impl Drop for World {
@@ -355,27 +380,6 @@ impl Errors {
             .first()
             .cloned()
             .unwrap_or_else(|| "a script has failed.".to_owned()))
-    }
-}
-
-impl Score {
-    fn new(
-        simulator: &mut Simulator,
-        expressions: &Expressions,
-        declaration: &Declaration,
-    ) -> Result<Option<Self>, String> {
-        let mut compile = |name: &str, text: &Option<String>| {
-            let head = "local o, a = ...; return";
-            let text = text.as_ref();
-            text.map(|text| expressions.compile(simulator, name, head, text))
-                .transpose()
-        };
-        let (reward, terminated) = (
-            compile("the reward", &declaration.reward)?,
-            compile("the end", &declaration.terminated)?,
-        );
-        let is_there = reward.is_some() || terminated.is_some();
-        Ok(is_there.then_some(Self { reward, terminated }))
     }
 }
 

@@ -1,11 +1,14 @@
 //! What goes wrong in one world is said of that one, and the others go on.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use super::{SCENE, bits, declared, seeds, step, vector};
-use crate::{Failure, Quantity, Vector};
+use crate::{Failure, Quantity, Reset, Vector};
 
 /// Why no worlds can be made.
 fn refusal(declaration: &crate::Declaration) -> String {
-    match Vector::new(declaration.clone(), 1, 1) {
+    match Vector::new(declaration.clone(), 1, 1, Box::new(|| false)) {
         Ok(_) => panic!("it was made"),
         Err(Failure { world, reason }) => {
             assert_eq!(world, 0);
@@ -102,4 +105,93 @@ fn rewards_that_are_no_numbers_fail_in_their_world() {
         failures[0]
     );
     assert_eq!(all.arrays().rewards.get(0), 1.0);
+}
+
+/// A ball, and a script that never ends once it is pushed that hard.
+const ENDLESS: &str = "
+sim = require 'sim'
+function sysCall_init()
+    ball = sim.createDummy(0.1)
+    sim.setObjectAlias(ball, 'ball')
+    push = 0
+end
+function push_by(x) push = x end
+function sysCall_actuation()
+    while push > 2 do end
+end
+";
+
+#[test]
+fn what_never_ends_is_interrupted_and_the_others_are_there() {
+    for reset in [Reset::Snapshot, Reset::Start] {
+        let (_folder, declaration) = declared(ENDLESS);
+        let declaration = crate::Declaration {
+            reset,
+            ..declaration
+        };
+        let asked = Arc::new(AtomicU32::new(0));
+        let asking = Arc::clone(&asked);
+        let wants_end = move || asking.fetch_add(1, Ordering::Relaxed) > 1;
+        let made = Vector::new(declaration, 3, 3, Box::new(wants_end));
+        let mut all = made.unwrap_or_else(|failure| panic!("{failure}"));
+        assert_eq!(all.begin(&seeds(3, 1)), []);
+        // Making worlds may have asked.
+        asked.store(0, Ordering::Relaxed);
+        all.arrays().actions.set(1, 3.0);
+        let failures = all.step().expect("actions are finite");
+        assert!(
+            failures.len() == 1 && failures[0].world == 1,
+            "{failures:?}"
+        );
+        assert!(failures[0].reason.contains("interrupted"), "{failures:?}");
+        assert!(asked.load(Ordering::Relaxed) > 1);
+        asked.store(0, Ordering::Relaxed);
+        assert_eq!(all.begin(&[(1, None)]), []);
+        step(&mut all, &[1.0; 3]);
+    }
+}
+
+#[test]
+fn scripts_that_have_failed_are_there_in_the_next_episode() {
+    for reset in [Reset::Snapshot, Reset::Start] {
+        let (_folder, declaration) = declared(SCENE);
+        let declaration = crate::Declaration {
+            reset,
+            ..declaration
+        };
+        let run = |fails: bool| {
+            let mut all = vector(&declaration, 2, 1);
+            assert_eq!(all.begin(&seeds(2, 1)), []);
+            all.arrays().actions.set(1, if fails { 13.0 } else { 1.0 });
+            let failures = all.step().expect("actions are finite");
+            assert_eq!(failures.len(), usize::from(fails));
+            assert_eq!(all.begin(&[(0, None), (1, None)]), []);
+            [step(&mut all, &[1.0; 2]), step(&mut all, &[1.0; 2])]
+        };
+        assert_eq!(run(true), run(false));
+    }
+}
+
+#[test]
+fn an_action_of_many_steps_is_interrupted_between_them() {
+    let (_folder, declaration) = declared(SCENE);
+    let declaration = crate::Declaration {
+        steps_per_action: u64::MAX,
+        ..declaration
+    };
+    let mut asked = 0;
+    let wants_end = move || {
+        asked += 1;
+        asked > 1
+    };
+    let made = Vector::new(declaration, 1, 1, Box::new(wants_end));
+    let mut all = made.unwrap_or_else(|failure| panic!("{failure}"));
+    let mut failures = all.begin(&seeds(1, 1));
+    failures.extend(all.step().expect("actions are finite"));
+    assert!(
+        failures
+            .iter()
+            .any(|failure| failure.reason.contains("interrupted")),
+        "{failures:?}"
+    );
 }
