@@ -1,12 +1,16 @@
 //! The bytes of a region at a moment, page by page; pages that did not change are shared between images.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use super::region::Region;
 
 pub(super) const PAGE: usize = 4096;
 
 type Page = [u8; PAGE];
+
+/// The page of zeros, which images of all heaps share: most of a small heap has never been used. To compare it with memory that has never been written costs next to
+/// nothing, since the system has one page for all of that too.
+static ZEROS: LazyLock<Arc<Page>> = LazyLock::new(|| Arc::new([0; PAGE]));
 
 /// What a region held.
 #[derive(Debug)]
@@ -27,6 +31,7 @@ impl Image {
             let page = unsafe { &*region.cast::<Page>().add(at) };
             match last.and_then(|last| last.pages.get(at)) {
                 Some(known) if **known == *page => Arc::clone(known),
+                _ if *page == **ZEROS => Arc::clone(&ZEROS),
                 _ => Arc::new(*page),
             }
         });

@@ -57,6 +57,19 @@ fn a_restored_heap_goes_on_as_it_did_before() {
 }
 
 #[test]
+fn memory_that_was_never_used_takes_none_in_a_snapshot() {
+    let heap = heap();
+    let list = heap.enter(|| vec![1_u8; 10_000]);
+    let snapshot = heap.snapshot().expect("nothing is open");
+    assert!(
+        (10_000..40_000).contains(&snapshot.own_bytes()),
+        "{}",
+        snapshot.own_bytes()
+    );
+    heap.enter(|| drop(list));
+}
+
+#[test]
 fn an_earlier_snapshot_can_be_brought_back_after_a_later_one() {
     let heap = heap();
     let value = heap.enter(|| Rc::new(RefCell::new(vec![1; 10_000])));
