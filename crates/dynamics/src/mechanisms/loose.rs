@@ -56,7 +56,7 @@ impl Loose {
         let world = start.world;
         let candidates = candidates(start);
         self.is_crowded = candidates.len() > if self.is_crowded { CROWD.0 } else { CROWD.1 };
-        if self.is_crowded {
+        if self.is_crowded || candidates.is_empty() {
             return;
         }
         let sizes = Sizes::new(world, contacts);
