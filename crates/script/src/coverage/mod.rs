@@ -8,7 +8,6 @@ mod text;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 pub use text::read_text;
 
@@ -23,8 +22,8 @@ pub enum CountedText {
         scene: String,
         /// The object's path in the scene.
         path: String,
-        /// The text, with bytes as in the scene.
-        text: Arc<[u8]>,
+        /// The text, with bytes as in the scene; its own copy, since counts outlive the memory of their simulator.
+        text: Vec<u8>,
     },
 }
 

@@ -37,7 +37,7 @@ impl Sim {
         let scripts = scene.objects().filter_map(|object| match &object.kind {
             Kind::Script(script) if self.scripts.languages.contains(&script.language) => {
                 let path = scene.short_path(object.handle()).ok()?;
-                let text = script.code.as_slice().into();
+                let text = script.code.as_slice().to_vec();
                 Some(CountedText::Script {
                     scene: scene.settings().path.clone(),
                     path,

@@ -32,7 +32,7 @@ pub(super) fn read(counts: &Data, own: &Own, sim: &Sim) -> LineCounts {
             true => CountedText::Script {
                 scene: sim.scene_path(),
                 path: own.path.clone(),
-                text: Arc::clone(&own.text),
+                text: own.text.to_vec(),
             },
             false => CountedText::File(PathBuf::from(&*name)),
         };

@@ -193,7 +193,7 @@ impl Own {
         CountedText::Script {
             scene: sim.scene_path(),
             path,
-            text: Arc::clone(&self.text),
+            text: self.text.to_vec(),
         }
     }
 }
