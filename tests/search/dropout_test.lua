@@ -12,7 +12,8 @@ function read() return 1, wall - x end
 
 function sysCall_actuation()
     local isSeen, distance = read()
-    if isSeen == 1 then last = distance end -- right
+    if isSeen ~= 1 then return end -- right
+    last = distance -- right
     last = isSeen == 1 and distance or 5 -- broken
     if last and last > 0.2 then x = x + math.min(0.2, 0.5 * (last - 0.2)) end
 end

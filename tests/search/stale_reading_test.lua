@@ -32,5 +32,5 @@ versions.property('it never touches the wall, in the second run neither', { case
     local robot = versions.script(CODE, version, sim.scripttype_customization)
     t.always(function() return robot:get('wall - x') end, 'before the wall')
     run(robot, g.float(0.5, 3), g.integer(1, 3))
-    run(robot, g.float(0.2, 3), g.integer(1, 8))
+    run(robot, g.float(0.1, 3), g.integer(1, 5))
 end)
