@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 # What motors are to do can be read as properties of their joints.
 _TARGETS = {"target_position": "targetPosition", "target_velocity": "targetVelocity", "target_force": "targetForce"}
-# Seconds between two looks at pages while the simulation is paused.
+# Polling interval while the simulation is paused, seconds.
 _PAUSE = 0.02
 
 

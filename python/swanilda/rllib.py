@@ -20,10 +20,14 @@ from typing import Any
 import gymnasium
 import numpy
 from gymnasium.vector import AutoresetMode
-from ray.rllib.algorithms.algorithm_config import AlgorithmConfig
-from ray.tune.registry import register_env
 
 from .vec import VectorEnv
+
+try:
+    from ray.rllib.algorithms.algorithm_config import AlgorithmConfig
+    from ray.tune.registry import register_env
+except ImportError as error:
+    raise ImportError("swanilda.rllib needs RLlib and torch: pip install 'ray[rllib]' torch") from error
 
 __all__ = ["environment"]
 

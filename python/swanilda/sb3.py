@@ -14,9 +14,13 @@ from typing import Any
 
 import numpy
 from gymnasium.vector import AutoresetMode
-from stable_baselines3.common.vec_env import VecEnv
 
 from .vec import VectorEnv
+
+try:
+    from stable_baselines3.common.vec_env import VecEnv
+except ImportError as error:
+    raise ImportError("swanilda.sb3 needs stable-baselines3: pip install stable-baselines3") from error
 
 
 class Worlds(VecEnv):

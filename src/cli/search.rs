@@ -1,4 +1,4 @@
-//! `swanilda search`: looks for cases in which properties fail.
+//! `swanilda search`: searches for cases in which properties fail.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use testing::{Config, Outcome, PropertyReport, SearchOptions};
 /// How long a search goes on that nobody has limited, seconds.
 const TIME: f64 = 60.0;
 
-/// Look for cases in which properties of tests fail
+/// Search for cases in which properties of tests fail
 ///
 /// Tries values that t.property draws: bounds, random ones, those near the least robustness and those that reach new lines of scripts. The simplest
 /// failing case is shown, kept in .swanilda/failures, and tried first by the next run.

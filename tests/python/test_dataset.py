@@ -112,7 +112,7 @@ def test_the_end_of_a_demonstration_is_that_of_the_simulation(simulator):
 
 
 class Person:
-    """Someone who looks at a page of the viewer."""
+    """A client of the viewer's page."""
 
     def __init__(self, url, client):
         self.page, self.steps, self.count = client.connect(url.replace("http", "ws", 1) + "stream", max_size=None), 0, 0

@@ -1,4 +1,4 @@
--- A vehicle goes along a rectangle and looks ahead for obstacles.
+-- A vehicle goes along a rectangle and detects obstacles ahead.
 
 local sim = require('sim')
 local t = require('swanilda.test')

@@ -141,7 +141,7 @@ pub struct SubStep {
     verdicts: Verdicts,
     /// The pairs of colliders that mechanisms solve.
     apart: Vec<ColliderPair>,
-    /// Whether the mechanisms have moved all that moves, so that the engine only looks for collisions.
+    /// Whether the mechanisms have moved all that moves, so that the engine only detects collisions.
     is_integrated: bool,
     /// Whether that is known as well, so that the engine has nothing to do.
     is_known: bool,

@@ -185,7 +185,7 @@ impl World {
         self.run_pipeline(0.0, gravity, hooks);
     }
 
-    /// Moves the colliders to where their bodies are, as a step does before it looks for collisions.
+    /// Moves the colliders to where their bodies are, as a step does before it detects collisions.
     pub(super) fn move_colliders(&mut self) {
         self.bodies
             .propagate_modified_body_positions_to_colliders(&mut self.colliders);

@@ -1,7 +1,7 @@
 //! Ctrl-c while a script runs that does not end by itself.
 //!
 //! Python notes signals, and raises `KeyboardInterrupt` when its main thread returns to it. A call into the simulator that takes longer is
-//! ended here: a thread is told of each ctrl-c beside Python, waits a little, and then interrupts the script on the main thread.
+//! ended here: a thread is notified of each ctrl-c beside Python, waits for a delay, and then interrupts the script on the main thread.
 
 use std::cell::Cell;
 use std::sync::Once;
@@ -15,8 +15,8 @@ use pyo3::prelude::*;
 use script::interrupt_running_code;
 use signal_hook::iterator::Signals;
 
-/// A call that is longer than this after ctrl-c has its script interrupted.
-const PATIENCE: Duration = Duration::from_millis(300);
+/// Delay between ctrl-c and the first interruption of the script: most calls have ended by then.
+const DELAY: Duration = Duration::from_millis(300);
 /// Time between interruptions, for scripts that catch the first one.
 const INTERVAL: Duration = Duration::from_millis(150);
 
@@ -88,7 +88,7 @@ pub fn watch(py: Python<'_>) -> PyResult<()> {
 )]
 fn interrupt(scripts: InterruptibleThread) {
     let call = CALLS.load(Relaxed);
-    thread::sleep(PATIENCE);
+    thread::sleep(DELAY);
     while call % 2 == 1 && CALLS.load(Relaxed) == call {
         scripts.wake();
         thread::sleep(INTERVAL);

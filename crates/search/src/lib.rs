@@ -1,4 +1,4 @@
-//! Looks for the case that makes a test fail, and for the simplest one that does.
+//! Searches for a case in which a test fails, and for the simplest one that does.
 //!
 //! A test draws values from its [`Case`]: numbers within bounds, one after the other. The sequence of these *choices* is all that
 //! distinguishes one case from another, as in Hypothesis: a case is run again, changed and shrunk by its choices, so that whatever a

@@ -10,9 +10,9 @@ use crate::contacts::{ContactResponse, Verdicts};
 use crate::near::ordered;
 use crate::world::{PREDICTION_DISTANCE, World};
 
-/// How far shapes may move until their surroundings are looked for again, metres.
+/// How far shapes may move until their neighbours are searched again, metres.
 const MARGIN: f64 = 0.2;
-/// Largest number of colliders, and of pairs for each shape of a mechanism: with more, the engine tells better what is near.
+/// Largest number of colliders, and of pairs for each shape of a mechanism: with more, the engine's broad phase is faster.
 const MAX_COLLIDERS: usize = 128;
 const MAX_PAIRS: usize = 8;
 
@@ -85,7 +85,7 @@ impl Surroundings {
         self.shapes.iter().all(has_stayed)
     }
 
-    /// Looks around the colliders of each mechanism, unless there is too much to look at.
+    /// Finds the neighbours of the colliders of each mechanism, unless there are too many.
     pub(super) fn find<'a>(
         &mut self,
         world: &World,

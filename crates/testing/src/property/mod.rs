@@ -51,7 +51,7 @@ pub struct PropertyOptions {
     pub is_fresh: bool,
 }
 
-/// How `swanilda search` looks for failing cases.
+/// How `swanilda search` searches for failing cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SearchOptions {
     /// Simulators that run cases at a time.
