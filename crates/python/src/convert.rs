@@ -3,6 +3,9 @@
 //! Bytes become buffers; lists, tuples and arrays become lists; a callable becomes the name under which the simulator calls it.
 //! Back: text that is not UTF-8 and buffers are bytes, lists are lists, tables are dictionaries.
 
+pub mod arrays;
+pub mod callables;
+
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{
@@ -10,8 +13,7 @@ use pyo3::types::{
 };
 use scene::{Data, Key};
 
-use crate::arrays;
-use crate::callables::Callables;
+use crate::convert::callables::Callables;
 
 /// Levels of lists and dictionaries.
 const MAX_DEPTH: usize = 100;

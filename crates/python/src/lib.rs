@@ -2,10 +2,7 @@
 //!
 //! Values are converted and calls passed on; everything else is the library's, or Python's in `python/swanilda`.
 
-mod arrays;
 mod batch;
-mod branches;
-mod callables;
 mod cases;
 mod console;
 mod convert;
@@ -14,11 +11,9 @@ mod host;
 mod interruption;
 mod library;
 mod lua_tests;
-mod making;
 mod module;
 mod options;
 mod quantities;
-mod recording;
 mod script;
 mod simulator;
 mod vector;
@@ -35,8 +30,6 @@ mod _swanilda {
     #[pymodule_export]
     use crate::batch::Batch;
     #[pymodule_export]
-    use crate::branches::Snapshot;
-    #[pymodule_export]
     use crate::cases::Cases;
     #[pymodule_export]
     use crate::errors::Error;
@@ -52,6 +45,8 @@ mod _swanilda {
     use crate::simulator::Simulator;
     #[pymodule_export]
     use crate::vector::{Array, Vector};
+    #[pymodule_export]
+    use crate::worlds::branches::Snapshot;
     #[pymodule_export]
     use crate::worlds::{close_all, forget_after_fork};
 

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use scene::Data;
 use swanilda::{Caller, NativeScript};
 
-use crate::callables::{self, Callables};
+use crate::convert::callables::{self, Callables};
 use crate::worlds::{Shared, Speaker};
 use crate::{convert, errors};
 

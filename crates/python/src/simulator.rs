@@ -12,15 +12,15 @@ use scene::Handle;
 use script::wall_clock;
 use swanilda::{Channels, Options, ScriptKind, SimulationState, Viewer};
 
-use crate::branches::{NOT_SHOWN, Snapshot};
 use crate::errors::{self, Error};
 use crate::interruption;
-use crate::making::made;
 use crate::module::Module;
 use crate::options::{Given, check_time_step, kind_of};
 use crate::quantities::Quantities;
 use crate::script::PythonScript;
 use crate::vector::Named;
+use crate::worlds::branches::{NOT_SHOWN, Snapshot};
+use crate::worlds::making::made;
 use crate::worlds::{self, Shared, World};
 
 /// Steps between two checks of signals, such as that of ctrl-c; fewer where they take longer than [`TIME_AT_ONCE`].

@@ -5,6 +5,10 @@
 //! Branches of a simulator are several numbers of one: one of them is what the memory holds now, of the others there are snapshots.
 //! A child process made by `fork` has copies of them whose sockets and threads are not its own: it forgets them.
 
+pub mod branches;
+pub mod making;
+pub mod recording;
+
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -14,11 +18,11 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use swanilda::{Caller, SimulationState, Simulator, Viewer};
 
-use crate::branches::Branches;
-use crate::callables::Callables;
+use crate::convert::callables::Callables;
 use crate::errors::Error;
 use crate::host;
-use crate::recording::Recording;
+use crate::worlds::branches::Branches;
+use crate::worlds::recording::Recording;
 
 thread_local! {
     static WORLDS: RefCell<BTreeMap<u64, Rc<World>>> = const { RefCell::new(BTreeMap::new()) };

@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use swanilda::{Options, ScriptKind};
 
-use crate::branches::Branches;
-use crate::callables::Callables;
 use crate::console::PythonConsole;
+use crate::convert::callables::Callables;
 use crate::host::ThisPython;
 use crate::script::MainProgram;
+use crate::worlds::branches::Branches;
 use crate::worlds::{self, Shared, Speaker, World};
 
 /// A simulator with an empty scene, in whose name Python's main program calls.
