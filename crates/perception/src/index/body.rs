@@ -43,6 +43,11 @@ impl Meshes {
         Rc::clone(self.0.entry(Rc::as_ptr(mesh) as usize).or_insert_with(new))
     }
 
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.0.len()
+    }
+
     /// Drops meshes that no body has.
     pub(super) fn drop_unused(&mut self) {
         self.0.retain(|_, mesh| Rc::strong_count(mesh) > 1);

@@ -172,6 +172,12 @@ impl Index {
         self.bodies.get(&handle)
     }
 
+    /// How many meshes bodies have, those that several share once.
+    #[cfg(test)]
+    pub(crate) fn kept_meshes(&self) -> usize {
+        self.meshes.count()
+    }
+
     /// Visits the bodies of a group by ascending lower bound, as long as it is smaller than the limit. `visit` gets the limit and returns
     /// the new one. Of a box inside of another, the lower bound must not be smaller.
     pub(crate) fn nearest_first(

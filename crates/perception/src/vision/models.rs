@@ -115,6 +115,12 @@ impl Models {
         self.surfaces.prepared_meshes()
     }
 
+    /// How many images are prepared for drawing.
+    #[cfg(test)]
+    pub(super) fn prepared_images(&self) -> usize {
+        self.surfaces.prepared_images()
+    }
+
     fn model(&mut self, scene: &Scene, object: &Object) -> Model {
         match &object.kind {
             Kind::Shape(shape) => Model {

@@ -97,4 +97,14 @@ mod tests {
         assert_eq!((colours.as_ptr(), colours.len()), (place, 12));
         assert_eq!(spares.colours(5).len(), 15);
     }
+
+    #[test]
+    fn ids_use_memory_again() {
+        let mut spares = Spares::default();
+        let list = vec![7; 6];
+        let place = list.as_ptr();
+        spares.keep_ids(list);
+        let picture = spares.picture([2, 3], Channels::IDS);
+        assert_eq!((picture.ids.as_ptr(), picture.ids.len()), (place, 6));
+    }
 }

@@ -90,6 +90,11 @@ impl Surfaces {
         self.meshes.len()
     }
 
+    #[cfg(test)]
+    pub(super) fn prepared_images(&self) -> usize {
+        self.images.len()
+    }
+
     fn mesh(&mut self, part: &Part) -> Option<Rc<Mesh>> {
         let prepared = self
             .meshes

@@ -1,5 +1,6 @@
 //! Pictures of small scenes, and what is kept between them.
 
+mod kept;
 mod pictures;
 mod sensors;
 mod views;

@@ -346,12 +346,15 @@ fn a_cloud_shows_a_part_of_its_points() {
 #[test]
 fn an_octree_may_be_shown_as_points() {
     let mut studio = studio();
+    studio
+        .scene
+        .modify_settings(|settings| settings.environment.ambient_light = [1.0; 3]);
     let mut tree = OcTree::new(0.1, 4.0);
     tree.shows_points = true;
     tree.insert(
         [0.05, 0.05, 1.05],
         Voxel {
-            colour: [255, 0, 0],
+            colour: [51, 102, 153],
             tag: 0,
         },
     );
@@ -360,5 +363,10 @@ fn an_octree_may_be_shown_as_points() {
         .add("octree", Kind::OcTree(Box::new(tree)))
         .unwrap();
     let picture = studio.picture();
-    assert_eq!(picture.ids.iter().filter(|id| **id == tree.0).count(), 16);
+    let at = |index: usize| &picture.colour[3 * index..3 * index + 3];
+    let seen: Vec<usize> = (0..SIDE * SIDE)
+        .filter(|index| picture.ids[*index] == tree.0)
+        .collect();
+    assert_eq!(seen.len(), 16);
+    assert!(seen.iter().all(|index| at(*index) == [51, 102, 153]));
 }

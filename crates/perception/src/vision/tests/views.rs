@@ -217,6 +217,43 @@ fn a_view_without_a_camera_shows_a_ball_around_all() {
 }
 
 #[test]
+fn a_cloud_or_octree_that_is_turned_reaches_as_far_as_its_points() {
+    let places = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|[x, y]| [x, y, 0.5]);
+    let mut points = cloud(1.0);
+    let point = |position| CloudPoint {
+        position,
+        colour: [0; 3],
+    };
+    points.insert(places.map(point).into_iter(), 0.0);
+    let mut tree = OcTree::new(1.0, 1.0);
+    let voxel = Voxel {
+        colour: [0; 3],
+        tag: 0,
+    };
+    // The centres of the voxels are half a metre beside.
+    let beside = places.map(|[x, y, z]| [x + 0.5, y + 0.5, z]);
+    beside
+        .into_iter()
+        .for_each(|place| tree.insert(place, voxel));
+    let kinds = [
+        (Kind::PointCloud(Box::new(points)), 0.0),
+        (Kind::OcTree(Box::new(tree)), 0.5),
+    ];
+    for (kind, middle) in kinds {
+        let mut scene = Scene::new();
+        let object = scene.add("object", kind).unwrap();
+        let turn = Pose::new(
+            [0.0; 3].into(),
+            [0.0, 0.0, std::f64::consts::FRAC_PI_4].into(),
+        );
+        scene.set_world_pose(object, turn).unwrap();
+        // An eighth of a turn makes a square of two metres from corner to corner one that is upright.
+        let centre = turn * nalgebra::Point3::new(middle, middle, 0.5);
+        looks_at(&scene, centre.coords.into(), 1.0);
+    }
+}
+
+#[test]
 fn viewpoints_are_objects_or_places() {
     let mut studio = Studio::new();
     let camera = studio

@@ -1,0 +1,47 @@
+//! Bodies of the index: where their parts are, and what becomes of those whose objects are gone.
+
+use super::*;
+use crate::index::Index;
+
+#[test]
+fn parts_turn_and_move_with_their_object() {
+    let mut scene = Scene::new();
+    let turned = Pose::new(
+        [0.0; 3].into(),
+        [0.0, 0.0, std::f64::consts::FRAC_PI_2].into(),
+    );
+    let first = primitive(&mut scene, PrimitiveKind::Cuboid, [0.2; 3], turned);
+    let second = cuboid(&mut scene, 1.0);
+    // A quarter of a turn brings it onto the x axis.
+    let change = |object: &mut scene::Object| {
+        object.shape_mut().unwrap().parts[0].pose = Pose::translation(0.0, -0.3, 0.0);
+    };
+    scene.modify(first, Field::Geometry, change).unwrap();
+    let entities = [first, second].map(Entity::Object);
+    let found = Perception::new(0, None).distance(&scene, entities, f64::INFINITY);
+    let found = found.unwrap();
+    assert!((found.distance - 0.5).abs() < 1e-9, "{found:?}");
+    assert!((found.points[0][0] - 0.4).abs() < 1e-9, "{found:?}");
+}
+
+#[test]
+fn what_is_gone_has_no_body_and_keeps_no_mesh() {
+    let mut scene = Scene::new();
+    let [first, second] = [0.0, 1.0].map(|x| cuboid(&mut scene, x));
+    let copy = scene.copy_objects(&[first], scene::CopyOptions::empty());
+    let copy = copy.unwrap()[&first];
+    let mut index = Index::default();
+    let mut after = |scene: &Scene| {
+        index.update(scene);
+        let has_body = [first, second, copy].map(|object| index.body(object).is_some());
+        (has_body, index.kept_meshes())
+    };
+    // A copy shares its mesh.
+    assert_eq!(after(&scene), ([true; 3], 2));
+    scene.remove(&[first]).unwrap();
+    assert_eq!(after(&scene), ([false, true, true], 2));
+    scene.remove(&[copy]).unwrap();
+    assert_eq!(after(&scene), ([false, true, false], 1));
+    scene.remove(&[second]).unwrap();
+    assert_eq!(after(&scene), ([false; 3], 0));
+}
