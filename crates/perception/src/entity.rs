@@ -199,6 +199,8 @@ mod tests {
             cuboid(&mut scene, 0.0),
             scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).unwrap(),
         );
+        // Nothing of a camera can be found, whatever flags say.
+        scene.add("camera", Kind::Camera(Box::default())).unwrap();
         for (overrides, expected) in [(false, vec![shape]), (true, vec![shape, dummy])] {
             let collection = scene.collections_mut().add(overrides, None);
             let all = CollectionItem::new(Members::All, ItemOptions::empty());

@@ -45,3 +45,33 @@ fn what_is_gone_has_no_body_and_keeps_no_mesh() {
     scene.remove(&[second]).unwrap();
     assert_eq!(after(&scene), ([false; 3], 0));
 }
+
+#[test]
+fn points_of_a_cloud_are_detected_and_measured() {
+    use scene::voxels::cloud_points::CloudPoints;
+    use scene::voxels::point_cloud::{CloudPoint, PointCloud};
+    let mut scene = Scene::new();
+    let mut cloud = PointCloud {
+        max_cell_size: 0.5,
+        max_points_in_cell: 4,
+        point_size: 1,
+        uses_octree: true,
+        display_fraction: 1.0,
+        random_colours: false,
+        points: CloudPoints::default(),
+    };
+    let point = |z: f64| CloudPoint {
+        position: [0.0, 0.0, z],
+        colour: [0; 3],
+    };
+    cloud.insert([0.5, 1.0].map(point).into_iter(), 0.0);
+    let cloud = scene.add("cloud", Kind::PointCloud(Box::new(cloud)));
+    let cloud = Entity::Object(cloud.unwrap());
+    let cone = sensor(&mut scene, VolumeType::Cone);
+    let mut perception = Perception::new(0, None);
+    let found = detect(&mut perception, &scene, cone, cloud).unwrap();
+    assert_eq!(found.detection.point, [0.0, 0.0, 0.5]);
+    let cube = Entity::Object(cuboid(&mut scene, 0.0));
+    let found = perception.distance(&scene, [cloud, cube], f64::INFINITY);
+    assert!((found.unwrap().distance - 0.4).abs() < 1e-9);
+}

@@ -47,6 +47,17 @@ fn neighbours_of_a_collection_are_not_compared_with_each_other() {
 }
 
 #[test]
+fn what_is_in_one_collection_alone_is_compared_with_what_is_in_both() {
+    let mut scene = Scene::new();
+    let [early, late] = [0.0, 0.1].map(|x| cuboid(&mut scene, x));
+    let [one, both] = [&[late][..], &[early, late]].map(|list| collection(&mut scene, list));
+    let mut perception = Perception::new(0, None);
+    for (entities, expected) in [([one, both], [late, early]), ([both, one], [early, late])] {
+        assert_eq!(perception.collision(&scene, entities), Some(expected));
+    }
+}
+
+#[test]
 fn the_surfaces_of_two_cubes_intersect_along_six_edges() {
     let mut scene = Scene::new();
     let first = cuboid(&mut scene, 0.0);

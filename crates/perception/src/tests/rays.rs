@@ -1,6 +1,7 @@
 //! Rays: how obliquely they may meet a surface, how random ones are spread, and what is too near.
 
 use super::*;
+use scene::sensor::Detection;
 
 fn set(scene: &mut Scene, sensor: Handle, change: impl FnOnce(&mut ProximitySensor)) {
     let change = |object: &mut scene::Object| change(object.proximity_sensor_mut().unwrap());
@@ -73,4 +74,86 @@ fn what_is_too_near_counts_where_any_surface_will_do() {
         set(&mut scene, ray, |data| data.volume.close_threshold = 0.5);
         assert_eq!(found(&scene, ray), None, "{exact}");
     }
+}
+
+/// Two walls across the rays, at 1 m and 2 m, each a part of one shape, in either order.
+#[test]
+fn of_the_parts_of_a_shape_the_nearest_is_met() {
+    for distances in [[1.0, 2.0], [2.0, 1.0]] {
+        let mut scene = Scene::new();
+        let ray = sensor(&mut scene, VolumeType::Ray);
+        let wall = Pose::identity();
+        let shape = primitive(&mut scene, PrimitiveKind::Plane, [4.0, 4.0, 0.0], wall);
+        let double = |object: &mut scene::Object| {
+            let parts = &mut object.shape_mut().unwrap().parts;
+            parts.push(parts[0].clone());
+            for (part, z) in parts.iter_mut().zip(distances) {
+                part.pose = Pose::translation(0.0, 0.0, z);
+            }
+        };
+        scene.modify(shape, Field::Geometry, double).unwrap();
+        for randomized in [false, true] {
+            set(&mut scene, ray, |data| {
+                (data.randomized, data.samples, data.required_samples) = (randomized, 5, 5);
+                data.volume.angle = 0.0;
+            });
+            let found = found(&scene, ray).unwrap().distance;
+            assert!((found - 1.0).abs() < 1e-9, "{distances:?} {found}");
+        }
+    }
+}
+
+#[test]
+fn of_a_list_the_nearest_is_met_wherever_it_stands() {
+    let mut scene = Scene::new();
+    let ray = sensor(&mut scene, VolumeType::Ray);
+    let walls = [2.0, 1.0, 1.5].map(|z| {
+        let pose = Pose::translation(0.0, 0.0, z);
+        primitive(&mut scene, PrimitiveKind::Plane, [4.0, 4.0, 0.0], pose)
+    });
+    let group = crate::entity::Group::List(walls.to_vec());
+    let mode = DetectionMode::from_options(3, 0.0);
+    let found = Perception::new(0, None).detect(&scene, ray, &group, mode);
+    assert_eq!(found.unwrap().unwrap().detection.object, walls[1]);
+}
+
+#[test]
+fn no_number_is_a_zero_with_a_sign() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    for turn in [[0.0; 3], [quarter, 0.0, 0.0], [0.0, quarter, 0.0]] {
+        for (volume, way) in [(VolumeType::Ray, 1.0), (VolumeType::Ray, -1.0)] {
+            let mut scene = Scene::new();
+            let ray = sensor(&mut scene, volume);
+            let pose = Pose::new([0.0, 0.0, 1.0].into(), turn.map(|angle| way * angle).into());
+            primitive(&mut scene, PrimitiveKind::Cuboid, [0.5; 3], pose);
+            let Detection { point, normal, .. } = found(&scene, ray).unwrap().detection;
+            let is_plain = |c: &f64| *c != 0.0 || c.is_sign_positive();
+            assert!(
+                point.iter().chain(&normal).all(is_plain),
+                "{point:?} {normal:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_random_numbers_begin_again_with_a_seed() {
+    let mut scene = Scene::new();
+    let ray = sensor(&mut scene, VolumeType::Ray);
+    set(&mut scene, ray, |data| {
+        (data.randomized, data.samples) = (true, 1);
+    });
+    let pose = Pose::translation(0.0, 0.0, 1.0);
+    primitive(&mut scene, PrimitiveKind::Plane, [10.0, 10.0, 0.0], pose);
+    let mut perception = Perception::new(3, None);
+    let next = |perception: &mut Perception| {
+        let found = detect(perception, &scene, ray, Entity::All);
+        found.unwrap().distance
+    };
+    let [first, second] = [0; 2].map(|_| next(&mut perception));
+    assert_ne!(first, second);
+    perception.set_seed(3);
+    assert_eq!(next(&mut perception), first);
+    perception.set_seed(4);
+    assert_ne!(next(&mut perception), first);
 }

@@ -1,9 +1,12 @@
 //! Pictures of small scenes, and what is kept between them.
 
+mod items;
 mod kept;
 mod pictures;
 mod sensors;
+mod surfaces;
 mod views;
+mod voxels;
 
 use geometry::PrimitiveKind;
 use rendering::Channels;

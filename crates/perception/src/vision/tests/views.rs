@@ -1,5 +1,7 @@
 //! Lights, fog, backgrounds, and where a scene without a camera is seen from.
 
+use std::f64::consts::{FRAC_PI_4, SQRT_2};
+
 use super::pictures::{SIDE, cloud, studio};
 use super::*;
 use crate::vision::views::Viewpoint;
@@ -217,7 +219,7 @@ fn a_view_without_a_camera_shows_a_ball_around_all() {
 }
 
 #[test]
-fn a_cloud_or_octree_that_is_turned_reaches_as_far_as_its_points() {
+fn what_is_turned_reaches_as_far_as_its_points() {
     let places = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|[x, y]| [x, y, 0.5]);
     let mut points = cloud(1.0);
     let point = |position| CloudPoint {
@@ -235,6 +237,13 @@ fn a_cloud_or_octree_that_is_turned_reaches_as_far_as_its_points() {
     beside
         .into_iter()
         .for_each(|place| tree.insert(place, voxel));
+    let turn = Pose::new([0.0; 3].into(), [0.0, 0.0, FRAC_PI_4].into());
+    let side = SQRT_2;
+    let block = Shape::primitive(PrimitiveKind::Cuboid, [side; 3], Default::default()).unwrap();
+    let mut scene = Scene::new();
+    let block = scene.add("block", Kind::Shape(Box::new(block))).unwrap();
+    scene.set_world_pose(block, turn).unwrap();
+    looks_at(&scene, [0.0; 3], (4.0 + 4.0 + 2.0_f64).sqrt() / 2.0);
     let kinds = [
         (Kind::PointCloud(Box::new(points)), 0.0),
         (Kind::OcTree(Box::new(tree)), 0.5),
@@ -242,10 +251,6 @@ fn a_cloud_or_octree_that_is_turned_reaches_as_far_as_its_points() {
     for (kind, middle) in kinds {
         let mut scene = Scene::new();
         let object = scene.add("object", kind).unwrap();
-        let turn = Pose::new(
-            [0.0; 3].into(),
-            [0.0, 0.0, std::f64::consts::FRAC_PI_4].into(),
-        );
         scene.set_world_pose(object, turn).unwrap();
         // An eighth of a turn makes a square of two metres from corner to corner one that is upright.
         let centre = turn * nalgebra::Point3::new(middle, middle, 0.5);
