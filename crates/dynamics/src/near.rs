@@ -1,5 +1,8 @@
 //! What is near a body, and how far it goes in a sub-step.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeSet;
 
 use rapier3d_f64::math::Vector;

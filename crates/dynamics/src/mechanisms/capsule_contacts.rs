@@ -240,4 +240,74 @@ mod tests {
         );
         assert!(normal.x.abs() > 0.9, "{normal:?}");
     }
+
+    /// What is found of an upright or lying capsule at a pose above a face at height 0 of 2 m by 2 m.
+    fn above(pose: EnginePose, is_first: bool) -> Option<Manifold> {
+        let (cuboid, leg) = (
+            Cuboid::new(Vector::new(1.0, 1.0, 0.1)),
+            Capsule::new_z(0.2, 0.05),
+        );
+        let floor = EnginePose::from_translation(Vector::Z * -0.1);
+        let (apart, shapes): (_, [&dyn Shape; 2]) = if is_first {
+            (pose.inv_mul(&floor), [&leg, &cuboid])
+        } else {
+            (floor.inv_mul(&pose), [&cuboid, &leg])
+        };
+        assert!(are_capsule_and_cuboid(shapes));
+        let mut manifold = Manifold::new();
+        update_capsule_at_face(&mut manifold, &apart, shapes, REACH).then_some(manifold)
+    }
+
+    fn upright(x: f64, height: f64) -> EnginePose {
+        EnginePose::from_translation(Vector::new(x, 0.0, 0.25 + height))
+    }
+
+    #[test]
+    fn the_lower_end_of_an_upright_capsule_is_over_the_point_that_is_nearest() {
+        for is_first in [false, true] {
+            let found = above(upright(0.3, 0.005), is_first).expect("it is above the face");
+            assert_eq!(found.points.len(), 1);
+            let point = &found.points[0];
+            assert!((point.dist - 0.005).abs() < 1e-12, "{}", point.dist);
+            let (mut own, mut other) = (point.local_p1, point.local_p2);
+            let mut normals = [found.local_n1, found.local_n2];
+            if is_first {
+                std::mem::swap(&mut own, &mut other);
+                normals.reverse();
+            }
+            let [floor, leg] = [Vector::new(0.3, 0.0, 0.1), Vector::Z * -0.25];
+            assert!((own - floor).length() < 1e-12 && (other - leg).length() < 1e-12);
+            assert_eq!(normals, [Vector::Z, -Vector::Z]);
+        }
+        let apart = above(upright(0.3, 0.02), false).expect("it is above the face");
+        assert!(apart.points.is_empty());
+    }
+
+    #[test]
+    fn ends_that_matter_have_to_be_over_the_face() {
+        let is_found = |pose: EnginePose| above(pose, false).is_some();
+        let edge = 1.0 - MARGIN;
+        assert!(is_found(upright(edge - 1e-6, 0.0)) && !is_found(upright(edge + 1e-6, 0.0)));
+        // The upper end of a slanted one is beyond the edge, and far away.
+        let slanted = |angle: f64| {
+            let mut pose = EnginePose::from_rotation(Rotation::from_rotation_y(angle));
+            let up = 0.2 * angle.cos().abs();
+            pose.translation = Vector::new(0.99, 0.0, 0.05 + up);
+            pose
+        };
+        assert!(!is_found(slanted(1.57)));
+        let mut beside = slanted(0.5);
+        beside.translation.x = 0.95 + 0.2 * 0.5_f64.sin();
+        assert!(is_found(beside));
+    }
+
+    #[test]
+    fn only_a_capsule_and_a_cuboid_are_both() {
+        let (cuboid, capsule) = (Cuboid::new(Vector::ONE), Capsule::new_z(0.2, 0.05));
+        let shapes: [&dyn Shape; 2] = [&cuboid, &capsule];
+        for (first, second) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let both = [shapes[first], shapes[second]];
+            assert_eq!(are_capsule_and_cuboid(both), first != second);
+        }
+    }
 }

@@ -220,4 +220,64 @@ mod tests {
         };
         assert!(a.1.z < 0.9 && (a.1 - b.1).length() < 1e-3, "{a:?} {b:?}");
     }
+
+    /// Whether a wheel that lies on the floor is found at its face without a search, as it stood there before.
+    fn is_at_face(x: f64, overlap: f64) -> bool {
+        let lying = at(x, 0.02 - overlap, Vector::X * std::f64::consts::FRAC_PI_2);
+        let (ground, wheel) = (floor(), wheel(lying));
+        let shapes = [ground.shape(), wheel.shape()];
+        let apart = ground.position().inv_mul(wheel.position());
+        let mut manifold = Manifold::new();
+        (manifold.local_n1, manifold.local_n2) = (Vector::Z, -Vector::Y);
+        manifold.points.push(TrackedContact::new(
+            Vector::ZERO,
+            Vector::ZERO,
+            PackedFeatureId::UNKNOWN,
+            PackedFeatureId::UNKNOWN,
+            0.0,
+        ));
+        let found = update_at_face(&mut manifold, &apart, shapes, REACH);
+        if found {
+            let nearest = manifold.points.iter().map(|point| point.dist);
+            let nearest = nearest.min_by(f64::total_cmp).expect("they touch");
+            assert!((nearest + overlap).abs() < 1e-12, "{nearest}");
+            assert!((manifold.local_n1 - Vector::Z).length() < 1e-12);
+        }
+        found
+    }
+
+    #[test]
+    fn a_wheel_that_lies_on_a_face_needs_no_search() {
+        for overlap in [-5e-3, 0.0, 5e-4] {
+            assert!(is_at_face(0.5, overlap), "{overlap}");
+        }
+        // Too deep, and where its lowest point may be nearer to the side: what they overlap counts for that.
+        assert!(!is_at_face(0.5, 2e-3));
+        assert!(!is_at_face(1.1, 0.0));
+    }
+
+    #[test]
+    fn what_overlaps_has_to_be_as_far_from_the_edge() {
+        // A ball of facets has one lowest point, below its middle.
+        let is_found = |to_edge: f64, overlap: f64| {
+            let form = ColliderBuilder::cone(0.1, 0.05);
+            let mut pose =
+                EnginePose::from_rotation(Rotation::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+            pose.translation = Vector::new(1.0 - to_edge, 0.0, 0.1 - overlap);
+            let (ground, cone) = (floor(), form.position(pose).build());
+            let apart = ground.position().inv_mul(cone.position());
+            let mut manifold = Manifold::new();
+            manifold.local_n1 = Vector::Z;
+            manifold.points.push(TrackedContact::new(
+                Vector::ZERO,
+                Vector::ZERO,
+                PackedFeatureId::UNKNOWN,
+                PackedFeatureId::UNKNOWN,
+                0.0,
+            ));
+            update_at_face(&mut manifold, &apart, [ground.shape(), cone.shape()], REACH)
+        };
+        assert!(is_found(2e-4, 0.0) && !is_found(0.5e-4, 0.0));
+        assert!(is_found(7e-4, 5e-4) && !is_found(5e-4, 5e-4));
+    }
 }

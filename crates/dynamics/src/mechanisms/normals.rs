@@ -114,3 +114,48 @@ fn faces(shape: &dyn Shape) -> Vec<Vector> {
         _ => Vec::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rapier3d_f64::parry::shape::{Ball, Cuboid, Cylinder};
+
+    use super::*;
+
+    #[test]
+    fn a_cuboid_has_six_faces_and_a_cylinder_two() {
+        let cuboid = faces(&Cuboid::new(Vector::ONE));
+        for axis in [Vector::X, Vector::Y, Vector::Z] {
+            assert!(cuboid.contains(&axis) && cuboid.contains(&-axis));
+        }
+        assert_eq!(cuboid.len(), 6);
+        assert_eq!(faces(&Cylinder::new(1.0, 0.5)), [Vector::Y, -Vector::Y]);
+        assert!(faces(&Ball::new(1.0)).is_empty());
+    }
+
+    #[test]
+    fn shapes_are_farthest_apart_along_the_axis_of_their_gap() {
+        let (cube, plate) = (
+            Cuboid::new(Vector::splat(0.5)),
+            Cuboid::new(Vector::new(1.0, 1.0, 0.1)),
+        );
+        // Beside each other with a gap of 0.25 m, at heights that overlap by 0.4 m.
+        let mut apart = EnginePose::IDENTITY;
+        apart.translation = Vector::new(-1.75, 0.0, 0.2);
+        let parts = Parts {
+            shapes: [&cube, &plate],
+            second: apart,
+        };
+        for (axis, expected) in [
+            (-Vector::X, 0.25),
+            (Vector::X, -3.25),
+            (Vector::Z, -0.4),
+            (-Vector::Z, -0.8),
+            (Vector::Y, -1.5),
+        ] {
+            let found = parts.separation(axis);
+            assert!((found - expected).abs() < 1e-12, "{axis:?}: {found}");
+        }
+        let (distance, axis) = parts.farthest().expect("they have faces");
+        assert!((distance - 0.25).abs() < 1e-12 && axis == -Vector::X);
+    }
+}

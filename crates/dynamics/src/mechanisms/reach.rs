@@ -51,3 +51,52 @@ impl Reach {
                 > RigidBodyCcd::FAST_BODY_SAFETY_FACTOR * self.thickness
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rapier3d_f64::math::Vector;
+    use rapier3d_f64::prelude::{ColliderBuilder, RigidBodyBuilder, RigidBodySet};
+
+    use super::*;
+
+    const STEP: f64 = 0.01;
+
+    /// Of a body with a ball of 0.1 m whose centre is 0.3 m from its origin.
+    fn with_ball() -> Reach {
+        let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
+        let body = bodies.insert(RigidBodyBuilder::dynamic().build());
+        let ball = ColliderBuilder::ball(0.1).translation(Vector::X * 0.3);
+        let ball = colliders.insert_with_parent(ball.build(), body, &mut bodies);
+        Reach::of(&[ball], &colliders)
+    }
+
+    #[test]
+    fn a_body_without_shapes_is_not_solid() {
+        assert!(!Reach::default().is_solid());
+        assert!(with_ball().is_solid());
+    }
+
+    #[test]
+    fn a_body_goes_too_far_with_half_of_its_thickness() {
+        let reach = with_ball();
+        // The tip of the ball is 0.4 m from the origin.
+        let exceeded = |linear: f64, angular: f64| {
+            let velocity = Vector6::new(0.0, linear, 0.0, 0.0, 0.0, angular);
+            reach.is_exceeded(&velocity, STEP)
+        };
+        for (linear, angular, expected) in [
+            (4.9, 0.0, false),
+            (5.1, 0.0, true),
+            (0.0, 12.4, false),
+            (0.0, 12.6, true),
+            (2.5, 6.2, false),
+            (2.5, 6.3, true),
+            (f64::NAN, 0.0, true),
+        ] {
+            assert_eq!(exceeded(linear, angular), expected, "{linear} {angular}");
+        }
+        let empty = Reach::default();
+        let fast = |speed: f64| empty.is_exceeded(&Vector6::repeat(speed), 1e-12);
+        assert!(!fast(1e8) && fast(1e10));
+    }
+}

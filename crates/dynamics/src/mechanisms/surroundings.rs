@@ -1,6 +1,9 @@
 //! What mechanisms may touch, found once for as long as none of their shapes has moved far. Where nothing else moves, the engine need not look for collisions
 //! meanwhile.
 
+#[cfg(test)]
+mod tests;
+
 use rapier3d_f64::math::Pose as EnginePose;
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d_f64::prelude::{Collider, ColliderHandle};

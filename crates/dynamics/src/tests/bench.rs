@@ -113,6 +113,15 @@ impl Bench {
         }
     }
 
+    /// The sub-steps of a call that was begun, without scripts.
+    pub(super) fn sub_steps(&mut self, count: u32) {
+        for number in 1..=count {
+            self.dynamics.prepare(&self.scene, number);
+            self.sub_step(number, None);
+        }
+        self.triggers = self.dynamics.end(&mut self.scene);
+    }
+
     fn sub_step(&mut self, number: u32, callback: Option<ContactCallback<'_>>) {
         let verdicts = callback.map_or_else(Verdicts::default, |asked| {
             ask(self.dynamics.pairs_near(), asked)

@@ -4,12 +4,14 @@ mod bench;
 mod chains;
 mod contacts;
 mod driven;
+mod first_contacts;
 mod free_bodies;
 mod joints;
 mod loops;
 mod random_trees;
 mod sleep;
 mod surfaces;
+mod tumbling;
 
 use bench::{Bench, STEP, along_y, near};
 
