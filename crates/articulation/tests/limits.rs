@@ -146,6 +146,35 @@ fn a_motor_does_not_push_through_a_limit() {
     }
 }
 
+/// A limit takes a joint back whatever a motor does that pushes on: with all its force, by the side on which its velocity is.
+#[test]
+fn a_motor_pushes_against_a_limit_that_takes_the_joint_back() {
+    for kind in KINDS {
+        for target in [2.0, 10.0] {
+            let mut rig = moved(kind, 1.1, 0.0);
+            rig.joint.motor = Some(Motor {
+                velocity: target,
+                max_force: 5.0,
+            });
+            // A fifth of 0.1 in a step.
+            nearly(after(&mut rig, kind), -4.0);
+            let load = rig.mechanism.joint_loads().next().unwrap();
+            nearly(load.motor, 5.0);
+        }
+    }
+}
+
+#[test]
+fn a_joint_at_rest_below_its_range_returns_to_it() {
+    for kind in KINDS {
+        for (low, position) in [(0.5, 0.2), (0.5, -0.1), (-0.5, -0.8)] {
+            let mut rig = moved(kind, position, 0.0);
+            rig.joint.limits = Some([low, 1.0]);
+            nearly(after(&mut rig, kind), 0.2 * (low - position) / STEP);
+        }
+    }
+}
+
 #[test]
 fn coordinates_of_joints_are_angles_and_ways() {
     let turned = |angle: f64| Pose::new(Vector3::new(0.1, 0.2, 0.3), Vector3::z() * angle);

@@ -100,6 +100,68 @@ fn rotors_keep_the_angular_momentum() {
     }
 }
 
+/// A disc that spins about its axis and across it, whose gyroscopic torque tilts the hull.
+#[test]
+fn discs_keep_the_angular_momentum() {
+    let (tilt, spin) = (Vector3::new(8.0, 0.0, 0.0), Vector3::new(0.0, 0.0, 400.0));
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 1.0)) * INERTIA;
+    let (_, mut states) = with_rotor(tilt, spin);
+    let hull = Matrix3::from_diagonal_element(HULL_INERTIA);
+    let hull = BodyProperties::dynamic(100.0, hull, Vector3::zeros());
+    let disc_body = BodyProperties::dynamic(MASS, disc, Vector3::zeros());
+    let joint = joint(JointKind::Revolute, [0, 1], Vector3::z(), 0.0);
+    let mut mechanism = Mechanism::new(vec![hull, disc_body], vec![joint]);
+    let momentum = |states: &[BodyState]| {
+        let [hull, rotor] = [0, 1].map(|body: usize| halves(&states[body].motion.velocity).1);
+        let turn = states[1].motion.pose.rotation;
+        HULL_INERTIA * hull + turn * (disc * turn.inverse_transform_vector(&rotor))
+    };
+    let before = momentum(&states);
+    for _ in 0..20 {
+        let motions = solved(&mut mechanism, &states);
+        let corrected = mechanism.correct_positions(&motions, &[400.0 * STEP]);
+        for ((state, motion), corrected) in states.iter_mut().zip(motions).zip(corrected) {
+            state.motion = corrected.unwrap_or(motion);
+            state.gyroscopic_velocity = halves(&state.motion.velocity).1;
+        }
+    }
+    let lost = momentum(&states) - before;
+    assert!(lost.norm() < 0.05 * before.norm(), "{lost} of {before}");
+}
+
+/// Both turn fast about the axis, the hull too; the body that turned before turns on from there.
+#[test]
+fn a_fast_pair_turns_about_its_axis() {
+    let (tilt, spin) = (Vector3::x() * 8.0, Vector3::z() * 400.0);
+    let start = UnitQuaternion::from_scaled_axis(Vector3::z() * 1.0);
+    let (mut mechanism, mut states) = with_rotor(tilt, spin);
+    for state in &mut states {
+        state.motion.velocity[5] += 150.0;
+        state.gyroscopic_velocity.z += 150.0;
+    }
+    states[1].motion.pose.rotation = start;
+    let motions = solved(&mut mechanism, &states);
+    let corrected = mechanism.correct_positions(&motions, &[400.0 * STEP]);
+    let turn = |by: Vector3<f64>| UnitQuaternion::from_scaled_axis(by * STEP);
+    let expected = turn(tilt) * turn(Vector3::z() * 550.0) * start;
+    let rotation = corrected[1].unwrap().pose.rotation;
+    assert!(rotation.angle_to(&expected) < 1e-3, "{rotation}");
+}
+
+#[test]
+fn what_no_force_moves_is_no_rotor() {
+    let axis = Vector3::z();
+    let mut rig = rig(JointKind::Revolute, axis, 0.0, Vector3::zeros());
+    rig.body = moving(Vector3::zeros(), axis * 400.0);
+    rig.begin(Vector3::zeros());
+    assert!(rig.mechanism.solve());
+    let motions: Vec<BodyMotion> = rig.mechanism.integrate().collect();
+    let corrected = rig.mechanism.correct_positions(&motions, &[400.0 * STEP]);
+    assert_eq!(corrected[0], None);
+    let turn = UnitQuaternion::from_scaled_axis(axis * 400.0 * STEP);
+    assert!(corrected[1].unwrap().pose.rotation.angle_to(&turn) < 1e-9);
+}
+
 /// Below half a radian in a step, a rotor is a body like any other.
 #[test]
 fn slow_rotors_are_left_to_the_engine() {

@@ -188,3 +188,33 @@ fn a_limit_stops_an_axis_with_everything() {
     slide.after(2.0);
     nearly(slide.position, 0.2);
 }
+
+/// A motor or a limit that moves an axis at rest has friction against it, from the first step on.
+#[test]
+fn friction_opposes_what_sets_an_axis_in_motion() {
+    let friction = Passive {
+        friction: 3.0,
+        ..Passive::default()
+    };
+    let mut driven = Slide::new(0.0, friction);
+    // Friction holds at first, and then the motor moves.
+    assert_eq!(driven.after(0.05), 0.0);
+    driven.rig.joint.motor = Some(Motor {
+        velocity: 0.5,
+        max_force: 1e6,
+    });
+    nearly(driven.step(), 0.5);
+    nearly(driven.motor_force(), MASS * 0.5 / STEP + 3.0);
+    driven.rig.joint.motor = Some(Motor {
+        velocity: -0.5,
+        max_force: 1e6,
+    });
+    nearly(driven.step(), -0.5);
+    nearly(driven.motor_force(), -MASS / STEP - 3.0);
+    let mut pushed = Slide::new(0.3, friction);
+    pushed.rig.joint.limits = Some([-0.2, 0.2]);
+    // A fifth of what is missing, whatever friction holds.
+    nearly(pushed.step(), -0.02 / STEP);
+    let load = pushed.rig.mechanism.joint_loads().next().unwrap();
+    nearly(load.rows.norm(), MASS * 0.02 / STEP / STEP);
+}
