@@ -179,6 +179,41 @@ end)";
     assert_ne!(search("1", "6"), table);
 }
 
+/// Cases go on from moments of others at which these have chosen values: with the same results as those that run from the beginning, each
+/// in a simulator of its own.
+#[test]
+fn cases_go_on_from_the_run_of_others() {
+    let code = "
+t.property('stays', {fresh = FRESH}, function(g)
+    local begun = io.open(t.file('begun'), 'a')
+    begun:write('x')
+    begun:close()
+    local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1}, 0)
+    sim.setObjectPosition(box, {0, 0, 0.05})
+    sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+    t.always(function() return 99 - sim.getObjectPosition(box)[1] end)
+    g.faults({{'push', box, {choice = {{1, 0, 0}, {2, 0, 0}}}, {0.1, 0.5}}}, {most = 2, within = 3})
+    t.run_for(5)
+    sim.setObjectPosition(box, {g.float(0, 4), 0, 0.05})
+    t.run_for(1)
+end)";
+    let search = |jobs: &str, fresh: &str| {
+        let folder = folder(&code.replace("FRESH", fresh));
+        let args = ["search", "--cases", "120", "-j", jobs, "--out", "cases"];
+        let (exit, text) = swanilda(folder.path(), &args);
+        assert_eq!(exit, 0, "{text}");
+        let read = |name| std::fs::read_to_string(folder.path().join(name)).expect("it is there");
+        (read("cases/a-test-1-0-stays.csv"), read("begun").len())
+    };
+    let (table, begun) = search("1", "true");
+    // Once more for the outcome.
+    assert!((120..=121).contains(&begun), "{begun}");
+    let (undone, begun) = search("1", "false");
+    assert_eq!(undone, table);
+    assert!(begun < 115, "{begun} cases ran from the beginning");
+    assert_eq!(search("2", "false").0, table);
+}
+
 #[test]
 fn only_properties_are_searched() {
     let code = "it('is a test', function() error('it ran') end)";

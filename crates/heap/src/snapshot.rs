@@ -138,11 +138,11 @@ impl Handle {
 }
 
 impl Moment {
-    /// Brings back what the heap held.
+    /// Brings back what the heap held; as often as wanted.
     ///
     /// # Safety
     /// The code that ran when it was made has stood still since, and nothing refers to what the heap has got since.
-    pub unsafe fn bring_back(self) {
+    pub unsafe fn bring_back(&self) {
         let regions = [self.heap.general(), self.heap.scripts()];
         for (region, image) in regions.into_iter().zip(&self.images) {
             // SAFETY: the caller's promise.

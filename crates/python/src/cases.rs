@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use search::{
-    Budget, Case, Domain, Failures, Found, KnownFailure, Plan, Report, Rest, Server, Settings,
+    Budget, Case, CaseEnd, Domain, Failures, Found, KnownFailure, Plan, Rest, Server, Settings,
     Status, Value, WorkersGone,
 };
 
@@ -107,15 +107,12 @@ impl Cases {
             }
         };
         let (number, case) = self.running.take().ok_or_else(no_case)?;
-        let (choices, spans) = case.finish();
-        let report = Report {
-            choices,
-            spans,
+        let report = case.finish(CaseEnd {
             status,
             place,
             robustness,
             covered: Vec::new(),
-        };
+        });
         self.server.finish(number, report);
         Ok(())
     }

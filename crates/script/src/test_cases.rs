@@ -4,10 +4,11 @@
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use crate::coverage::LineCounts;
 use heap::outside;
-use search::{Case, Domain, Plan, Report, Server, Status, Value};
+use search::{Case, CaseEnd, Domain, Plan, Server, Value};
 
 /// Where cases come from.
 #[derive(Debug, Clone)]
@@ -40,19 +41,6 @@ pub struct Signal {
     pub robustness: f64,
 }
 
-/// How a case ended, in the words of the test.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CaseEnd {
-    /// How it ended.
-    pub status: Status,
-    /// Where it failed.
-    pub place: String,
-    /// How far it was from failing; infinite when that was not measured.
-    pub robustness: f64,
-    /// Lines of scripts that ran, as numbers, where they are counted.
-    pub covered: Vec<u64>,
-}
-
 /// The cases of a property.
 #[derive(Debug)]
 pub struct TestCases {
@@ -63,12 +51,21 @@ pub struct TestCases {
     line_counts: RefCell<LineCounts>,
     /// The single case has been begun.
     is_used: Cell<bool>,
+    /// When the case that runs has begun, or has last come to a branch.
+    since: Cell<Option<Instant>>,
 }
 
 #[derive(Debug)]
 struct Running {
     number: usize,
     case: Case,
+}
+
+/// What the case that ran had chosen at a moment from which others may go on.
+#[derive(Debug)]
+pub struct Branch {
+    case: Case,
+    notes: Vec<Note>,
 }
 
 impl TestCases {
@@ -80,6 +77,7 @@ impl TestCases {
             notes: RefCell::default(),
             line_counts: RefCell::default(),
             is_used: Cell::default(),
+            since: Cell::default(),
         }
     }
 
@@ -108,29 +106,75 @@ impl TestCases {
             });
             self.notes.borrow_mut().clear();
             *self.running.borrow_mut() = case;
+            self.renew_age();
         });
         self.running.borrow().is_some()
     }
 
     /// Makes a choice of the case that runs. None when none runs, or when it has made too many.
     pub fn choose(&self, domain: Domain) -> Option<Value> {
-        let mut running = self.running.borrow_mut();
-        outside(|| running.as_mut()?.case.choose(domain))
+        self.with_case(|case| case.choose(domain)).flatten()
     }
 
-    /// Begins or ends a span of choices that belong together.
-    pub fn span(&self, begins: bool) {
-        let mut running = self.running.borrow_mut();
-        let Some(running) = running.as_mut() else {
-            return;
-        };
+    /// How long the case has been running, or since its last branch.
+    pub fn age(&self) -> Duration {
+        let since = self.since.get();
+        since.map_or(Duration::ZERO, |since| now().duration_since(since))
+    }
+
+    /// Others may go on from where the case that runs has come to.
+    pub fn add_branch(&self) {
+        self.with_case(Case::add_branch);
+    }
+
+    /// What the case that runs has chosen so far. None when none runs.
+    pub fn branch(&self) -> Option<Branch> {
+        let notes = &self.notes;
+        self.with_case(|case| Branch {
+            case: case.clone(),
+            notes: notes.borrow().clone(),
+        })
+    }
+
+    /// The [age](Self::age) counts from now on.
+    pub fn renew_age(&self) {
+        self.since.set(Some(now()));
+    }
+
+    /// Begins the next case if it goes on from there; it waits for one.
+    pub fn go_on(&self, branch: &Branch, is_stopped: impl Fn() -> bool) -> bool {
         outside(|| {
-            if begins {
-                running.case.begin_span();
-            } else {
-                running.case.end_span();
+            let server = self.server();
+            let next = server.and_then(|server| server.next_from(&branch.case, is_stopped));
+            let is_next = next.is_some();
+            if let Some((number, case)) = next {
+                self.notes.borrow_mut().clone_from(&branch.notes);
+                *self.running.borrow_mut() = Some(Running { number, case });
+                self.renew_age();
             }
-        });
+            is_next
+        })
+    }
+
+    /// Begins a span of choices that belong together. Returns its number.
+    pub fn begin_span(&self) -> Option<usize> {
+        self.with_case(Case::begin_span)
+    }
+
+    /// The choices that follow belong to a span that was ended.
+    pub fn resume_span(&self, span: usize) {
+        self.with_case(|case| case.resume_span(span));
+    }
+
+    /// Ends the last span that was begun.
+    pub fn end_span(&self) {
+        self.with_case(Case::end_span);
+    }
+
+    fn with_case<T>(&self, work: impl FnOnce(&mut Case) -> T) -> Option<T> {
+        let mut running = self.running.borrow_mut();
+        let running = running.as_mut()?;
+        outside(|| Some(work(&mut running.case)))
     }
 
     /// Notes a value for people.
@@ -165,17 +209,7 @@ impl TestCases {
             let Some(server) = self.server() else {
                 return;
             };
-            let (choices, spans) = case.finish();
-            let end = end.clone();
-            let report = Report {
-                choices,
-                spans,
-                status: end.status,
-                place: end.place,
-                robustness: end.robustness,
-                covered: end.covered,
-            };
-            server.finish(number, report);
+            server.finish(number, case.finish(end.clone()));
         });
     }
 }
@@ -197,4 +231,10 @@ impl Drop for TestCases {
             server.give_up(running.case.values());
         }
     }
+}
+
+/// The wall clock says what is worth it; results do not depend on it.
+#[expect(clippy::disallowed_methods, reason = "see above")]
+fn now() -> Instant {
+    Instant::now()
 }

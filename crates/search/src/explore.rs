@@ -2,7 +2,8 @@
 //!
 //! First come the bounds of all values, then values at random. Where a test measures how far it is from failing (`robustness`), cases near
 //! the closest ones follow, by steps of all sizes: which size makes progress depends on how close they are. Where lines of scripts are counted,
-//! cases that reach new lines are varied as well. Values at random go on all the time.
+//! cases that reach new lines are varied as well. Of a case that has chosen values in the midst of its run, only what it chose from some
+//! moment on may be varied: such cases come one after the other, and share their run up to there. Values at random go on all the time.
 
 use std::collections::BTreeSet;
 
@@ -22,6 +23,8 @@ const CORPUS: usize = 64;
 /// The largest step of a variation, as a share of the domain, and how much smaller the smallest one is.
 const STEP: f64 = 0.4;
 const STEP_RANGE: f64 = 10_000.0;
+/// How many cases go on from one moment of another.
+const BRANCHES: usize = 4;
 
 /// What is known of the cases so far.
 #[derive(Debug)]
@@ -34,6 +37,18 @@ pub struct Explorer {
     /// Those that reached new lines.
     corpus: Vec<Report>,
     covered: BTreeSet<u64>,
+    /// Cases are made that go on from a moment of another.
+    fork: Option<Fork>,
+}
+
+/// A moment of a case from which others go on.
+#[derive(Debug)]
+struct Fork {
+    choices: Vec<Choice>,
+    /// How many of the choices had been made.
+    kept: usize,
+    /// How many cases are still to come.
+    left: usize,
 }
 
 /// An exploration from that seed.
@@ -44,6 +59,7 @@ pub fn explore(seed: u64) -> Explorer {
         elite: Vec::new(),
         corpus: Vec::new(),
         covered: BTreeSet::new(),
+        fork: None,
     }
 }
 
@@ -71,11 +87,16 @@ impl Explorer {
 
     /// Values near those of a case worth it; none for a case at random.
     fn varied(&mut self) -> Vec<Value> {
+        if let Some(values) = self.forked() {
+            return values;
+        }
         let kind = self.random.below(4);
         if kind < 2 && !self.elite.is_empty() {
             // The closest is varied most.
             let at = self.elite.len() - 1 - self.random.late_below(self.elite.len());
-            return vary(&self.elite[at].choices, &mut self.random);
+            self.fork = Fork::of(&self.elite[at], &mut self.random);
+            let forked = self.forked();
+            return forked.unwrap_or_else(|| vary(&self.elite[at].choices, &mut self.random));
         }
         if kind == 2 && !self.corpus.is_empty() {
             // The latest went furthest.
@@ -83,6 +104,19 @@ impl Explorer {
             return resample(&self.corpus[at].choices, &mut self.random);
         }
         Vec::new()
+    }
+
+    /// Values of the next case that goes on from the moment of a fork, if there is one.
+    fn forked(&mut self) -> Option<Vec<Value>> {
+        let fork = self.fork.as_mut().filter(|fork| fork.left > 0)?;
+        fork.left -= 1;
+        let (kept, later) = fork.choices.split_at(fork.kept);
+        let mut values: Vec<_> = kept.iter().map(|choice| choice.value).collect();
+        // The last one is made anew from there.
+        if fork.left > 0 {
+            values.extend(vary(later, &mut self.random));
+        }
+        Some(values)
     }
 
     /// Learns from cases that have passed.
@@ -114,6 +148,26 @@ impl Explorer {
     /// The smallest robustness so far; infinite when nothing was measured.
     pub fn robustness(&self) -> f64 {
         self.elite.first().map_or(f64::INFINITY, |r| r.robustness)
+    }
+}
+
+impl Fork {
+    /// At one of the moments at which a case has chosen values while it ran, later ones more often; for every other case.
+    fn of(report: &Report, random: &mut Random) -> Option<Self> {
+        let count = report.choices.len();
+        let moments = report
+            .branches
+            .iter()
+            .filter(|kept| (1..count).contains(*kept));
+        let moments: Vec<_> = moments.copied().collect();
+        if moments.is_empty() || random.below(2) == 0 {
+            return None;
+        }
+        Some(Self {
+            choices: report.choices.clone(),
+            kept: moments[random.late_below(moments.len())],
+            left: BRANCHES,
+        })
     }
 }
 

@@ -18,7 +18,7 @@ mod shrink;
 #[cfg(test)]
 mod tests;
 
-pub use case::{Case, Plan, Rest, Span};
+pub use case::{Case, CaseEnd, Plan, Rest, Span};
 pub use choice::{Choice, Domain, Value};
 pub use explore::explore;
 pub use failures::{Failures, KnownFailure, text_of, values_of};
@@ -44,6 +44,8 @@ pub struct Report {
     pub choices: Vec<Choice>,
     /// The choices that belong together.
     pub spans: Vec<Span>,
+    /// How many choices it had made at the moments from which other cases may go on: a later one was made after time had passed.
+    pub branches: Vec<usize>,
     /// How it ended.
     pub status: Status,
     /// Where it failed; two cases that fail at the same place fail for the same reason.

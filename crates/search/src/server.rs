@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::case::Plan;
+use super::case::{Case, Plan};
 use super::choice::Value;
 use super::{Report, Status};
 
@@ -73,6 +73,22 @@ impl Server {
             }
             state = self.wait(state);
         }
+    }
+
+    /// The case of the next plan and its number, if it goes on from where `case` has come to; it stays with the other threads otherwise.
+    /// It waits for one as [`next`](Self::next) does.
+    pub fn next_from(&self, case: &Case, is_stopped: impl Fn() -> bool) -> Option<(usize, Case)> {
+        let mut state = self.lock();
+        while !state.is_closed && !is_stopped() {
+            if let Some((number, plan)) = state.waiting.front() {
+                let next = (*number, case.resumed(plan)?);
+                state.waiting.pop_front();
+                state.running += 1;
+                return Some(next);
+            }
+            state = self.wait(state);
+        }
+        None
     }
 
     /// How the case with that number ended.

@@ -103,10 +103,13 @@ impl Change {
         let mut values = report.values();
         let simplest = |number: usize| report.choices[number].domain.simplest();
         match self {
-            Self::Without(span) => drop(values.drain(span.start..span.end)),
-            Self::Simplest(span) => {
-                (span.start..span.end).for_each(|number| values[number] = simplest(number));
+            Self::Without(span) => {
+                let parts = span.parts.into_iter().rev();
+                parts.for_each(|part| drop(values.drain(part)));
             }
+            Self::Simplest(span) => span
+                .numbers()
+                .for_each(|number| values[number] = simplest(number)),
             Self::Set(number, value) => values[number] = value,
             Self::Pair(a, b) => [a, b].into_iter().for_each(|n| values[n] = simplest(n)),
         }
@@ -135,17 +138,17 @@ pub(crate) fn compare(a: &Report, b: &Report) -> Ordering {
 /// The longest spans first, of equal ones the last.
 fn without_spans(report: &Report) -> Box<dyn Iterator<Item = Change> + '_> {
     let mut spans = report.spans.clone();
-    spans.sort_by_key(|span| std::cmp::Reverse((span.end - span.start, span.start)));
+    spans.sort_by_key(|span| std::cmp::Reverse((span.len(), span.numbers().next())));
     Box::new(spans.into_iter().map(Change::Without))
 }
 
 fn with_simplest_spans(report: &Report) -> Box<dyn Iterator<Item = Change> + '_> {
     let is_shrunk = |span: &&Span| {
-        let choices = &report.choices[span.start..span.end];
-        choices.len() > 1 && choices.iter().any(|choice| !choice.is_simplest())
+        let mut choices = span.numbers().map(|number| &report.choices[number]);
+        span.len() > 1 && choices.any(|choice| !choice.is_simplest())
     };
     let spans = report.spans.iter().filter(is_shrunk);
-    Box::new(spans.map(|span| Change::Simplest(*span)))
+    Box::new(spans.map(|span| Change::Simplest(span.clone())))
 }
 
 fn with_simpler_values(report: &Report) -> Box<dyn Iterator<Item = Change> + '_> {

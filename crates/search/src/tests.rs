@@ -23,16 +23,12 @@ impl Evaluate for Runs {
 fn run(test: Test, plan: Plan) -> Report {
     let mut case = Case::new(plan);
     let (status, place, robustness, covered) = test(&mut case);
-    let (choices, spans) = case.finish();
-    let place = place.to_owned();
-    Report {
-        choices,
-        spans,
+    case.finish(CaseEnd {
         status,
-        place,
+        place: place.to_owned(),
         robustness,
         covered,
-    }
+    })
 }
 
 fn settings(cases: usize) -> Settings {
@@ -203,6 +199,109 @@ fn discarded_cases_are_counted_and_never_fail() {
     assert!((50..150).contains(&found.discarded), "{}", found.discarded);
 }
 
+/// A test that makes choices at three moments, each of which others may go on from; it fails near one point of eight values.
+fn in_three_parts(case: &mut Case) -> (Status, &'static str, f64, Vec<u64>) {
+    let mut distance = 0.0;
+    for part in 0..3 {
+        if part > 0 {
+            case.add_branch();
+        }
+        let wanted = 0.2 + 0.3 * f64::from(part);
+        distance += libm::fabs(float(case, 0.0, 1.0) - wanted);
+        distance += libm::fabs(float(case, 0.0, 1.0) - wanted);
+    }
+    let status = if distance < 0.15 {
+        Status::Failed
+    } else {
+        Status::Passed
+    };
+    (status, "close", distance - 0.15, Vec::new())
+}
+
+/// Cases that only change what was chosen late share what came before, one after the other.
+#[test]
+fn cases_go_on_from_moments_of_others() {
+    let mut shared = 0;
+    let mut last: Vec<Value> = Vec::new();
+    let mut follow = |found: &Found, reports: &[Report]| {
+        for report in reports.iter().filter(|_| found.cases > 100) {
+            let values = report.values();
+            shared += usize::from(last.get(..2) == values.get(..2));
+            last = values;
+        }
+    };
+    let mut runs = Runs(in_three_parts);
+    let found = search(&settings(2000), &mut runs, &mut || false, &mut follow).expect("cases run");
+    assert!(found.failing.is_some(), "{:?}", found.closest);
+    assert!(shared * 8 > found.cases, "{shared} of {}", found.cases);
+}
+
+/// A case that goes on from a moment is the one that runs from the beginning.
+#[test]
+fn a_case_goes_on_as_if_it_had_run_from_the_beginning() {
+    let plan = |values: &[f64], seed| Plan {
+        values: values.iter().copied().map(Value::Float).collect(),
+        rest: Rest::Random(seed),
+    };
+    let whole = |case: &mut Case| {
+        case.begin_span();
+        let _ = float(case, 0.0, 1.0);
+        case.end_span();
+    };
+    let mut first = Case::new(plan(&[0.25], 1));
+    whole(&mut first);
+    first.add_branch();
+    let begun = first.clone();
+    whole(&mut first);
+    let next = plan(&[0.25], 2);
+    let mut resumed = begun.resumed(&next).expect("it has chosen the same");
+    let mut fresh = Case::new(next);
+    whole(&mut fresh);
+    fresh.add_branch();
+    for case in [&mut resumed, &mut fresh] {
+        whole(case);
+    }
+    let end = CaseEnd {
+        status: Status::Passed,
+        place: String::new(),
+        robustness: 0.0,
+        covered: Vec::new(),
+    };
+    assert_ne!(resumed.values(), first.values());
+    assert_eq!(resumed.finish(end.clone()), fresh.finish(end));
+    assert!(begun.resumed(&plan(&[0.5, 0.1], 2)).is_none());
+    assert!(begun.resumed(&plan(&[], 2)).is_none());
+}
+
+/// The elements of a list are chosen in two parts, with something else between them; they are left out as a whole.
+#[test]
+fn choices_that_belong_together_may_lie_apart() {
+    let test: Test = |case| {
+        let mut spans = Vec::new();
+        for number in 0..3 {
+            let span = case.begin_span();
+            let probability = if number < 2 { 0.8 } else { 0.0 };
+            let follows = case.choose(Domain::Follows { probability });
+            case.end_span();
+            if follows != Some(Value::Integer(1)) {
+                break;
+            }
+            spans.push(span);
+        }
+        let between = integer(case, 0, 100);
+        let mut largest = 0;
+        for span in spans {
+            case.resume_span(span);
+            largest = largest.max(integer(case, 1, 60));
+            case.end_span();
+        }
+        let after = integer(case, 0, 100);
+        verdict(between < 20 || after < 30 || largest < 7)
+    };
+    // One element, the end of the list, what is between, the rest of the element, what comes after.
+    assert_eq!(simplest(test, 500), [1, 0, 20, 7, 30].map(Value::Integer));
+}
+
 /// The same result by any number of threads, whatever their order.
 #[test]
 fn threads_change_nothing() {
@@ -221,6 +320,9 @@ fn threads_change_nothing() {
     for threads in [1, 3] {
         assert_eq!(found_by(threads, test), expected);
     }
+    let expected = found(in_three_parts, &settings(1000));
+    assert!(expected.failing.is_some());
+    assert_eq!(found_by(2, in_three_parts), expected);
 }
 
 fn found_by(threads: usize, test: Test) -> Found {
@@ -249,13 +351,16 @@ fn found_by(threads: usize, test: Test) -> Found {
 #[test]
 fn a_case_that_is_left_unfinished_ends_the_search() {
     let server = Server::new(2, || {});
+    let is_taken = std::sync::Barrier::new(2);
     std::thread::scope(|scope| {
         scope.spawn(|| {
             assert!(server.next(|| false).is_some());
+            is_taken.wait();
             server.give_up(Vec::new());
             server.leave();
         });
         scope.spawn(|| {
+            is_taken.wait();
             while let Some((number, plan)) = server.next(|| false) {
                 server.finish(number, run(|_| verdict(true), plan));
             }

@@ -29,13 +29,8 @@ fn branch(cx: &mut Cx, r#fn: ScriptFunction) -> Result<(Data, Data)> {
     if !open.is_empty() {
         return Err(not_undone(&open));
     }
-    let branches = cx.module_state::<Branches>();
     let callback = ScriptCallback::new(cx, r#fn);
-    let outcome = cx.undone(|| {
-        branches.depth.set(branches.depth.get() + 1);
-        let results = callback.call(&[]).map_err(|error| error.to_string());
-        (results, cx.open_resources())
-    });
+    let outcome = cx.undone(|| called(cx, &callback));
     let (results, open) = outcome.get();
     if !open.is_empty() {
         return Err(not_undone(open));
@@ -46,7 +41,18 @@ fn branch(cx: &mut Cx, r#fn: ScriptFunction) -> Result<(Data, Data)> {
     })
 }
 
-fn not_undone(open: &[String]) -> ApiError {
+/// What a function returned, or its error, and what it has left open.
+pub(super) type Called = (std::result::Result<Vec<Data>, String>, Vec<String>);
+
+/// Calls a function in a part that is undone.
+pub(super) fn called(cx: &Cx, callback: &ScriptCallback) -> Called {
+    let branches = cx.module_state::<Branches>();
+    branches.depth.set(branches.depth.get() + 1);
+    let results = callback.call(&[]).map_err(|error| error.to_string());
+    (results, cx.open_resources())
+}
+
+pub(super) fn not_undone(open: &[String]) -> ApiError {
     let names = open.join(", ");
     ApiError::Other(format!("a branch does not undo {names}: close it before."))
 }

@@ -41,6 +41,17 @@ impl Cx<'_> {
         heap::Outer::new(sim.undone(|| sim.copied_out(|_| work())))
     }
 
+    /// The same again and again, as long as `goes_on` says of the result; the last one.
+    pub fn undone_while<T: Clone>(
+        &self,
+        mut work: impl FnMut() -> T,
+        goes_on: impl FnMut(&T) -> bool,
+    ) -> heap::Outer<T> {
+        let sim = &self.sim;
+        let work = || sim.copied_out(|_| work());
+        heap::Outer::new(sim.undone_while(work, goes_on))
+    }
+
     /// The connection to the test runner, if this is a test.
     pub fn test_bench(&self) -> Option<&Rc<TestBench>> {
         self.sim.test_bench.get()

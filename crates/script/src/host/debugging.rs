@@ -240,15 +240,31 @@ impl Sim {
     }
 
     /// The same, with the tape as ever: what `work` reads from outside is a part of the run.
-    #[expect(unsafe_code, reason = "memory is brought back")]
     pub fn undone<T>(self: &Rc<Self>, work: impl FnOnce() -> T) -> T {
-        let moment = heap::Handle::of(&**self).map(heap::Handle::moment);
+        let moment = self.moment();
         let result = heap::outside(work);
-        if let Some(moment) = moment {
-            // SAFETY: the code inside has stood still on the stack below, and `work` is over; what it returns lies outside.
-            unsafe { moment.bring_back() };
-        }
+        bring_back(moment.as_ref());
         result
+    }
+
+    /// The same again and again, each time from this moment, as long as `goes_on` says of the result; returns the last one.
+    pub fn undone_while<T>(
+        self: &Rc<Self>,
+        mut work: impl FnMut() -> T,
+        mut goes_on: impl FnMut(&T) -> bool,
+    ) -> T {
+        let moment = self.moment();
+        loop {
+            let result = heap::outside(&mut work);
+            bring_back(moment.as_ref());
+            if !heap::outside(|| goes_on(&result)) {
+                return result;
+            }
+        }
+    }
+
+    fn moment(self: &Rc<Self>) -> Option<heap::Moment> {
+        heap::Handle::of(&**self).map(heap::Handle::moment)
     }
 
     /// What is open that is no memory, by names for users.
@@ -277,5 +293,14 @@ impl Sim {
             (script, name)
         };
         self.scripts.all().into_iter().map(named).collect()
+    }
+}
+
+/// The memory is what it was, if there is a heap: what was called since is over, and keeps nothing of it.
+#[expect(unsafe_code, reason = "memory is brought back")]
+fn bring_back(moment: Option<&heap::Moment>) {
+    if let Some(moment) = moment {
+        // SAFETY: the code inside has stood still on the stack below, and what was called is over; what it returned lies outside.
+        unsafe { moment.bring_back() };
     }
 }

@@ -284,13 +284,6 @@ local function drawn(g, value)
     return value
 end
 
-local function scheduled(name, arguments, from, to)
-    local fault
-    local function begin() fault = M[name](table.unpack(arguments, 1, arguments.n)) end
-    if from <= t.time() then begin() else t.at(from, begin) end
-    if to then t.at(to, function() if fault then fault:stop() end end) end
-end
-
 local function checkedFaults(list)
     for _, entry in ipairs(list) do
         if type(entry) ~= 'table' or not M[entry[1]] then
@@ -313,19 +306,35 @@ local function drawnFault(g, list, options)
     local entry = g.choice(list)
     local arguments = { n = #entry - 1 }
     for i = 2, #entry do arguments[i - 1] = drawn(g, entry[i]) end
-    local from = t.time() + g.float(0, options.within or 0)
+    local from = t.time()
     local to = options.lasts and from + drawn(g, options.lasts)
     return setmetatable({ fault = entry[1], arguments = arguments, from = from, to = to }, Chosen)
 end
 
+local function begin(chosen)
+    local fault = M[chosen.fault](table.unpack(chosen.arguments, 1, chosen.arguments.n))
+    if chosen.to then t.at(chosen.to, function() fault:stop() end) end
+end
+
 --- g.faults(list, options): some of these faults, each a list of the name of one of t.faults and its arguments, of which {lo, hi} is a
 -- number between and {choice = {...}} one of these. Options: most (3) of them, within: seconds in which they begin, lasts: seconds.
-local function generator(g)
+-- When they begin is drawn at once, which ones they are and what when they do: other cases may go on from there. Returns the list of those
+-- that have begun.
+local function generator(g, later)
     return function(list, options)
         options = options or {}
         checkedFaults(list)
-        local chosen = g.list(function() return drawnFault(g, list, options) end, { max = options.most or 3 })
-        for _, one in ipairs(chosen) do scheduled(one.fault, one.arguments, one.from, one.to) end
+        local line, chosen = later.line(), {}
+        local begun = later.list(options.most or 3, function() return t.time() + g.float(0, options.within or 0) end)
+        for _, element in ipairs(begun) do
+            local function start()
+                local one = later.drawn(element.span, drawnFault, g, list, options)
+                chosen[#chosen + 1] = one
+                later.note(line, one)
+                begin(one)
+            end
+            if element.value <= t.time() then start() else t.at(element.value, start) end
+        end
         return chosen
     end
 end

@@ -42,14 +42,31 @@ local function lineOfTest()
     return 0
 end
 
+-- A case runs in a thread of its own. Before it draws something after time has passed, it waits there: other cases may go on from that moment.
+local thread, drawnAt -- of the case that runs
+
+local function await()
+    local time = sim.getSimulationTime()
+    if time == drawnAt or coroutine.running() ~= thread then return end
+    drawnAt = time
+    coroutine.yield(true)
+end
+
+-- Choices that belong together.
+local function part(make, ...)
+    local span = native.beginSpan()
+    local value = make(...)
+    native.endSpan()
+    return value, span
+end
+
 -- A generator: its choices are a span, and its value is noted unless it is part of another one.
 local function generator(make)
     return function(...)
         local line = depth == 0 and lineOfTest()
+        if depth == 0 then await() end
         depth = depth + 1
-        native.span(true)
-        local value = make(...)
-        native.span(false)
+        local value = part(make, ...)
         depth = depth - 1
         if depth == 0 then native.note(line, shown(value)) end
         return value
@@ -136,14 +153,17 @@ local function follows(count, least, most)
 end
 
 local function list(element, least, most)
-    local elements, isMore = {}, nil
+    local elements, spans = {}, {}
+    local function isMore()
+        if not follows(#elements, least, most) then return false end
+        elements[#elements + 1] = element(#elements + 1)
+        return true
+    end
     repeat
-        native.span(true)
-        isMore = follows(#elements, least, most)
-        if isMore then elements[#elements + 1] = element(#elements + 1) end
-        native.span(false)
-    until not isMore
-    return elements
+        local more
+        more, spans[#spans + 1] = part(isMore)
+    until not more
+    return elements, spans
 end
 
 g.list = generator(function(element, options)
@@ -265,26 +285,40 @@ local function reported(body, fixture, explain)
     end
 end
 
--- The same; it is undone, whatever becomes of it.
-local function undone(...)
-    local arguments = table.pack(...)
-    local ok, result, failure = pcall(native.branch, function() reported(table.unpack(arguments, 1, arguments.n)) end)
-    if not ok then error(tostring(result) .. ' Or each case has a simulator of its own: t.property(name, {fresh = true}, ...).', 0) end
-    if failure then error(failure, 0) end
+-- Runs a case on in its thread, to its end; and all others that share its run up to a moment at which it draws something.
+local function onward(resume)
+    while resume() do
+        local wasCalled, failure = native.eachBranch(function() onward(resume) end)
+        if failure then error(failure, 0) end
+        if wasCalled then return end
+    end
+end
+
+local function begun(body, fixture, explain)
+    drawnAt = sim.getSimulationTime()
+    local resume = coroutine.wrap(function()
+        thread = coroutine.running()
+        reported(body, fixture, explain)
+    end)
+    onward(resume)
 end
 
 --- Runs a property for all cases there are; raises the failure of a single one.
 function M.run(body, fixture, explain)
-    local kind = native.beginCase()
-    while kind == 'search' do
-        undone(body, fixture, explain)
-        kind = native.beginCase()
+    if native.areCasesUndone() then
+        local ok, failure = pcall(native.eachCase, function() begun(body, fixture, explain) end)
+        if not ok then
+            error(tostring(failure) .. ' Or each case has a simulator of its own: t.property(name, {fresh = true}, ...).', 0)
+        end
+        if failure then error(failure, 0) end
+        return
     end
-    if kind == 'one' then
-        reported(body, fixture, explain)
+    local isSingle = native.beginCase()
+    if isSingle == false then
+        begun(body, fixture, explain)
         -- What is left of it is not the test's.
         fixture.forget()
-    elseif kind == 'single' then
+    elseif isSingle then
         local ok, failure = tried(body, fixture, explain)
         native.endCase('passed', '', math.huge)
         if not ok and failure ~= DISCARDED then error(failure, 0) end
@@ -293,10 +327,40 @@ end
 
 M.shown = shown
 
+--- What makes a generator that draws a part of its elements later.
+local later = { line = lineOfTest }
+
+local function inner(make, ...)
+    await()
+    depth = depth + 1
+    local first, second = make(...)
+    depth = depth - 1
+    return first, second
+end
+
+--- At most so many elements, each with what is drawn of it now and a span for the rest.
+function later.list(most, element)
+    local values, spans = inner(list, element, 0, most)
+    local elements = {}
+    for i, value in ipairs(values) do elements[i] = { value = value, span = spans[i] } end
+    return elements
+end
+
+--- Draws another part of that span.
+function later.drawn(span, make, ...)
+    await()
+    native.resumeSpan(span)
+    local value = inner(make, ...)
+    native.endSpan()
+    return value
+end
+
+function later.note(line, value) native.note(line, shown(value)) end
+
 --- The fixture gives the functions of the runner, and what makes g.faults.
 function M.begin(functions, faults)
     native = functions
-    g.faults = generator(faults(g))
+    g.faults = faults(g, later)
 end
 
 return M
