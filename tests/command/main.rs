@@ -8,6 +8,7 @@ mod capture;
 mod cli;
 mod conformance;
 mod debugger;
+mod faults;
 mod physics;
 mod plugins;
 mod python;

@@ -2,7 +2,7 @@
 
 use test_support::process::{LIMIT, wait_within};
 
-use crate::server::{Server, check, python, run};
+use crate::server::{Server, check, folder, python, run};
 
 #[test]
 fn the_protocol_byte_by_byte() {
@@ -27,6 +27,19 @@ fn steps_and_locks() {
 #[test]
 fn clients_that_are_killed() {
     check("zmq_departures.py", &[]);
+}
+
+/// Requests that are lost, made twice, late, in another order, and clients that vanish.
+#[test]
+fn faults_of_the_link() {
+    let Some(python) = python() else { return };
+    let exchange = tempfile::tempdir().expect("a folder");
+    let exchange = exchange.path().to_string_lossy();
+    let faults = folder().join("link_faults.lua");
+    let parameter = format!("folder={exchange}");
+    let faults = ["--faults", &*faults.to_string_lossy(), "-D", &parameter];
+    let server = Server::start_with(&[&["--remote-api=0"], &faults[..]].concat());
+    run(python, "link_faults.py", &server, &[&exchange]);
 }
 
 #[test]

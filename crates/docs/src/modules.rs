@@ -48,6 +48,7 @@ const INNER: &[&str] = &[
     "remote/zmq_arguments",
     "remote/zmq_clients",
     "remote/zmq_functions",
+    "remote/link",
     "remote/zmq_steps",
     "remote/zmq_waits",
     "captured",

@@ -12,7 +12,7 @@ pub type WantsEnd = Box<dyn FnMut() -> bool + Send>;
 /// Time between two questions.
 const INTERVAL: Duration = Duration::from_millis(50);
 /// Questions until scripts that go on are interrupted in the middle of what they do: a step that ends by itself is let end.
-const PATIENT_INTERVALS: u32 = 5;
+const GRACE_INTERVALS: u32 = 5;
 
 /// Whether the worlds of all threads are to stop. Cheap to clone.
 #[derive(Clone, Default)]
@@ -45,7 +45,7 @@ pub(crate) fn gather<T>(
             stop.0.store(true, Relaxed);
             intervals += 1;
         }
-        if intervals > PATIENT_INTERVALS {
+        if intervals > GRACE_INTERVALS {
             workers.iter().for_each(Worker::interrupt_script);
         }
     };

@@ -17,6 +17,7 @@ local _, native = ...
 local sim = require('sim')
 local simWS = require('simWS')
 local codecs = require('remote.ws_codecs')
+local link = require('remote.link')
 local namespaces = require('remote.namespaces')
 local load = load -- for expressions of clients, whatever one of them puts in its place
 local pack, unpack = table.pack, table.unpack
@@ -65,6 +66,7 @@ local function perform(request)
 end
 
 local function reply(task, ok, outcome)
+    if not link.delivers(task.connection) then return end
     local bytes = codecs.reply(task.codec, task.request.id, ok, outcome)
     local sent, reason = pcall(simWS.send, task.server, task.connection, bytes, task.codec.opcode)
     if not sent then log(sim.verbosity_scripterrors, 'cannot reply to %s: %s', task.connection, tostring(reason)) end
@@ -81,6 +83,7 @@ end
 
 -- Requests whose step is over go on.
 local function resumeDue()
+    link.serveLate()
     if #waiting == 0 then return end
     local before, running = waiting, isRunning()
     waiting = {}
@@ -102,12 +105,16 @@ local function onMessage(server, connection, data)
         return log(sim.verbosity_scripterrors, 'cannot decode message: no suitable decoder')
     end
     if verbose > 0 then logRequest(connection, request) end
-    local task = {server = server, connection = connection, request = request, codec = codec}
-    task.coroutine = coroutine.create(perform)
-    run(task, request)
+    local function serve(peer)
+        local task = {server = server, connection = peer, request = request, codec = codec}
+        task.coroutine = coroutine.create(perform)
+        run(task, request)
+    end
+    link.request(serve, connection)
 end
 
 local function onClose(_, connection)
+    link.forget(connection)
     for i = #waiting, 1, -1 do
         if waiting[i].connection == connection then table.remove(waiting, i) end
     end

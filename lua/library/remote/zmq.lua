@@ -15,6 +15,7 @@ local _, native = ...
 local sim = require('sim')
 local load = load -- for chunks of clients, whatever one of them puts in its place
 local answers = require('remote.zmq_answers')
+local link = require('remote.link')
 local clients = require('remote.zmq_clients')
 local steps = require('remote.zmq_steps')
 local waits = require('remote.zmq_waits')
@@ -29,6 +30,7 @@ local EXECUTED <const>, END <const> = '_*executed*_', '_*end*_'
 local ANSWER_TIMEOUT <const> = 0.5 -- seconds after which a client that waits is told to wait on or to repeat
 local IDLE_TIMEOUT <const> = 0.002 -- seconds without a request after which an idle simulator goes on
 local POLL_TIMEOUT <const> = 0.05 -- the same while a client holds it up
+local LATE_TIMEOUT <const> = 0.001 -- the same while requests are late
 local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MAX_HELD <const> = 1000 -- requests put off
 local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
@@ -46,9 +48,13 @@ local function mustLeave() return restarting or native.closed() end
 
 ---------------------------------------------------------------- tasks
 
+local function reply(peer, bytes)
+    if link.delivers(peer) then native.reply(peer, bytes) end
+end
+
 local function answer(task, bytes)
     if not task.peer then return end -- its client is gone
-    native.reply(task.peer, bytes)
+    reply(task.peer, bytes)
     task.peer = nil
 end
 
@@ -208,7 +214,7 @@ local function executed(client, peer, request)
         return
     end
     local task = clients.expecting(client, peer)
-    if not task then return native.reply(peer, answers.failure('No such function: ' .. EXECUTED)) end
+    if not task then return reply(peer, answers.failure('No such function: ' .. EXECUTED)) end
     task.peer = peer
     if task.waits == 'callback' then
         local args, n = given(request)
@@ -233,14 +239,14 @@ end
 local function handle(peer, request)
     local client = clients.of(request, peer, sim.getSystemTime())
     if asking and asking ~= client then
-        if #held >= MAX_HELD then return native.reply(peer, answers.REPEAT) end
+        if #held >= MAX_HELD then return reply(peer, answers.REPEAT) end
         held[#held + 1] = {peer = peer, request = request, since = client.seen}
         return
     end
     if client.level == 0 and not served[client] then served[client], servedCount = true, servedCount + 1 end
     if request.func == END then
         clients.forget(client)
-        return native.reply(peer, answers.EMPTY)
+        return reply(peer, answers.EMPTY)
     end
     if request.func == EXECUTED then return executed(client, peer, request) end
     start(client, peer, request)
@@ -254,21 +260,23 @@ end
 
 local function handleSafely(peer, request)
     local ok, message = xpcall(handle, tostring, peer, request)
-    if not ok then native.reply(peer, answers.failure(message)) end
+    if not ok then reply(peer, answers.failure(message)) end
+    if peer == link.NOBODY then clients.forgetPeer(peer) end
 end
 
 local function receive(peer, bytes)
     local ok, request = xpcall(decode, tostring, bytes)
     if not ok or type(request) ~= 'table' or type(request.uuid) ~= 'string' then
-        return native.reply(peer, answers.MISMATCH)
+        return reply(peer, answers.MISMATCH)
     end
     if verbose > 0 then logRequest(peer, request) end
-    handleSafely(peer, request)
+    link.request(handleSafely, peer, request)
 end
 
 -- A connection is gone, and with it what it has sent.
 local function forgetPeer(peer)
     clients.forgetPeer(peer)
+    link.forget(peer)
     for i = #held, 1, -1 do
         if held[i].peer == peer then table.remove(held, i) end
     end
@@ -281,7 +289,8 @@ local function serveOne(timeout)
         handleSafely(first.peer, first.request)
         return true
     end
-    local peer, bytes = native.receive(timeout)
+    link.serveLate()
+    local peer, bytes = native.receive(link.isAwaited() and math.min(timeout, LATE_TIMEOUT) or timeout)
     if not peer then return false end
     if bytes then receive(peer, bytes) else forgetPeer(peer) end
     return true
@@ -291,7 +300,7 @@ end
 function serveAsked()
     serveOne(POLL_TIMEOUT)
     local now = sim.getSystemTime()
-    while held[1] and now - held[1].since > ANSWER_TIMEOUT do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
+    while held[1] and now - held[1].since > ANSWER_TIMEOUT do reply(table.remove(held, 1).peer, answers.REPEAT) end
     clients.forgetExpired(now)
     waits.note(now)
 end
@@ -389,5 +398,5 @@ function sysCall_cleanup()
     for _, client in ipairs(clients.all) do
         for _, task in ipairs(client.tasks) do answer(task, gone) end
     end
-    for _, request in ipairs(held) do native.reply(request.peer, gone) end
+    for _, request in ipairs(held) do reply(request.peer, gone) end
 end

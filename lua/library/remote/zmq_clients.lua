@@ -113,7 +113,7 @@ end
 
 function M.endTask(client, task) removeFrom(client.tasks, task) end
 
---- The innermost task that has the client's ear.
+--- The innermost task whose client waits for an answer.
 function M.listening(client)
     for i = #client.tasks, 1, -1 do
         if client.tasks[i].peer then return client.tasks[i] end

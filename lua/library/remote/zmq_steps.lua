@@ -12,7 +12,7 @@ local clients = require('remote.zmq_clients')
 local M = {}
 
 local ADVANCING <const> = sim.simulation_advancing
-local PATIENCE <const> = 0.02 -- seconds for which a step waits for a start that another client is about to ask for
+local START_TIMEOUT <const> = 0.02 -- seconds for which a step waits for a start that another client is about to ask for
 
 local count = 0
 
@@ -24,13 +24,13 @@ function M.pass() count = count + 1 end
 --- The task waits for the end of the present step.
 function M.await(client, task, now)
     task.waits, task.step, task.asked, task.since = 'step', count, now, now
-    task.isPatient, client.asksForStep = client.asksForStep and client.level > 0, nil
+    task.mayAwaitStart, client.asksForStep = client.asksForStep and client.level > 0, nil
 end
 
 --- Whether the step is over that a task waits for. There is none while the simulation stands.
 function M.isDue(task, now)
     if task.step ~= count then return true end
-    return not M.isRunning() and not (task.isPatient and now - task.asked < PATIENCE)
+    return not M.isRunning() and not (task.mayAwaitStart and now - task.asked < START_TIMEOUT)
 end
 
 local function hasAskedForStep(client)

@@ -8,7 +8,7 @@ local sim = require('sim')
 local clients = require('remote.zmq_clients')
 local steps = require('remote.zmq_steps')
 
-local PATIENCE <const> = 1 -- seconds
+local NOTE_AFTER <const> = 1 -- seconds
 local SHORTEST_ADDRESS <const> = 8 -- digits by which the Python client tells functions of one name apart
 
 local M = {}
@@ -30,13 +30,13 @@ local LOCK <const> = 'waiting for %s: it has held a lock for %.0f s (sim.acquire
 local function warn(text, ...) sim.addLog(sim.verbosity_scriptwarnings, text:format(...)) end
 
 local function noteCall(client, call, peer, now)
-    if call.isNoted or now - call.since < PATIENCE then return end
+    if call.isNoted or now - call.since < NOTE_AFTER then return end
     call.isNoted = true
     warn(CALL, title(client, peer), withoutAddress(call.callback), now - call.since)
 end
 
 local function noteLock(client, now)
-    if client.locks == 0 or client.isLockNoted or now - client.lockedSince < PATIENCE then return end
+    if client.locks == 0 or client.isLockNoted or now - client.lockedSince < NOTE_AFTER then return end
     client.isLockNoted = true
     warn(LOCK, title(client, next(client.peers)), now - client.lockedSince)
 end

@@ -62,6 +62,7 @@ Properties and what holds over time, see docs/TESTING.md
 Faults, from the seed of the run: each returns a fault f, which f:stop() ends. docs/TESTING.md has a table
     t.faults.noise, bias, dropout, stuck, blackout      (script, name, ...) what a function returns
     t.faults.delay, lose, double, reorder               (script, name, ...) calls that send something, such as sim.setFloatSignal
+    t.faults.loseRequests, loseReplies, doubleRequests, reorderRequests, delayRequests, vanish     remote clients, with --faults
     t.faults.slow, fail, crash                          (script, ...) programs
     t.faults.backlash, weak, jam, friction              (script or joint, ...) motors
     t.faults.mass, slip, push                           (shape, ...) bodies

@@ -101,7 +101,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
 }
 
 /// A script and what it uses.
-struct Patient {
+struct CheckedScript {
     /// File, and the object in it where it is a scene.
     name: String,
     uses: Vec<Use>,
@@ -109,7 +109,7 @@ struct Patient {
 
 #[derive(Default)]
 struct Report {
-    scripts: Vec<Patient>,
+    scripts: Vec<CheckedScript>,
     /// What is deprecated is listed too.
     deprecated: bool,
 }
@@ -144,7 +144,7 @@ impl Report {
 
     fn add(&mut self, name: String, file: &Path, language: &str, code: &[u8]) {
         let uses = uses_of(file, language, code);
-        self.scripts.push(Patient { name, uses });
+        self.scripts.push(CheckedScript { name, uses });
     }
 
     fn uses(&self) -> impl Iterator<Item = &Use> {
@@ -187,7 +187,7 @@ impl Report {
     }
 
     fn json(&self) -> String {
-        let scripts: Vec<_> = self.scripts.iter().map(Patient::json).collect();
+        let scripts: Vec<_> = self.scripts.iter().map(CheckedScript::json).collect();
         let [works, approximated, missing] = self.counts();
         let report = serde_json::json!({
             "scripts": scripts,
@@ -211,7 +211,7 @@ pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
 /// What is known of a name beside its support, and its lines.
 type Lines<'a> = (Option<&'a str>, Vec<String>);
 
-impl Patient {
+impl CheckedScript {
     fn text(&self, with_deprecated: bool) -> String {
         let mut lines: BTreeMap<(Support, &str), Lines<'_>> = BTreeMap::new();
         let is_listed = |found: &&Use| {

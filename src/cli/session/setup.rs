@@ -70,7 +70,7 @@ pub(in crate::cli) struct Setup {
     /// Lua file to load as an add-on; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
-    /// Lua file with faults of sensors, messages, motors, bodies and programs, such as `faults.noise('/script', 'sim.readProximitySensor', 0.02)`
+    /// Lua file with faults of sensors, messages, remote clients, motors, bodies and programs, such as `faults.noise('/script', 'sim.readProximitySensor', 0.02)`
     #[arg(long, value_name = "FILE")]
     faults: Option<PathBuf>,
     /// Convert Lua files written for V-REP or early CoppeliaSim, as scripts in old scenes are: old names, threads, changed meanings

@@ -145,6 +145,39 @@ function messages.reorder(script, name, probability)
     return fault
 end
 
+---------------------------------------------------------------- clients of the remote APIs
+
+local clients = {}
+
+local SERVERS <const> = { 'ZMQ remote API server', 'WebSocket remote API server' }
+
+-- A fault of the link to the clients, see remote.link.
+local function ofLink(kind, value)
+    local begun = {}
+    for _, name in ipairs(SERVERS) do
+        local exists, server = pcall(sim.getScript, sim.scripttype_addon, name)
+        if exists then begun[server] = sim.callScriptFunction('_swanilda_link_begin', server, kind, value) end
+    end
+    if not next(begun) then error(('faults.%s: there is no remote API for clients (--remote-api).'):format(kind), 3) end
+    return new(function()
+        for server, number in pairs(begun) do sim.callScriptFunction('_swanilda_link_end', server, kind, number) end
+    end)
+end
+
+function clients.loseRequests(probability) return ofLink('loseRequests', probability or 1) end
+
+function clients.loseReplies(probability) return ofLink('loseReplies', probability or 1) end
+
+function clients.doubleRequests(probability) return ofLink('doubleRequests', probability or 1) end
+
+function clients.reorderRequests(probability) return ofLink('reorderRequests', probability or 1) end
+
+-- Seconds of the wall clock.
+function clients.delayRequests(seconds) return ofLink('delayRequests', seconds) end
+
+-- The clients that have sent a request so far are silent from now on, without ending their connections.
+function clients.vanish() return ofLink('vanish') end
+
 ---------------------------------------------------------------- programs
 
 local programs = {}
@@ -269,7 +302,7 @@ end
 
 ---------------------------------------------------------------- all
 
-for _, group in ipairs { sensors, messages, programs, motors, bodies } do
+for _, group in ipairs { sensors, messages, clients, programs, motors, bodies } do
     for name, fault in pairs(group) do M[name] = fault end
 end
 
