@@ -29,6 +29,7 @@ from typing import Any, TypeVar
 
 from . import _swanilda
 from ._simulator import Simulator
+from .temporal import Condition, Watch
 
 T = TypeVar("T")
 
@@ -43,14 +44,16 @@ class _Discarded(Exception):
 class Cases:
     """What a property draws the values of a case from."""
 
-    def __init__(self, native: _swanilda.Cases) -> None:
+    def __init__(self, native: _swanilda.Cases, simulators: Sequence[Simulator] = ()) -> None:
         self._native = native
+        self._simulators = simulators
         self._begin()
 
     def _begin(self) -> None:
         self._depth = 0
         self._notes: list[str] = []
         self._robustness = math.inf
+        self._watch: Watch | None = None
 
     @contextmanager
     def _part(self) -> Iterator[Callable[[Any], None]]:
@@ -184,6 +187,45 @@ class Cases:
         """How far the case is from failing, such as a clearance; the least of a case leads the search."""
         self._robustness = min(self._robustness, builtins.float(value))
 
+    def always(self, condition: Condition, name: str | None = None) -> None:
+        """The condition holds at each step of the simulator from now on (`swanilda.temporal`)."""
+        self._watched().always(condition, name)
+
+    def eventually(self, condition: Condition, within: builtins.float | None = None, name: str | None = None) -> None:
+        """The condition holds at some step within so many seconds, or until the end of the case."""
+        self._watched().eventually(condition, within, name)
+
+    def holds_until(
+        self, condition: Condition, end: Condition, within: builtins.float | None = None, name: str | None = None
+    ) -> None:
+        """The condition holds at each step until `end` does, which it does."""
+        self._watched().holds_until(condition, end, within, name)
+
+    def leads_to(self, condition: Condition, consequence: Condition, within: builtins.float, name: str | None = None) -> None:
+        """Whenever the condition holds, the consequence does within so many seconds."""
+        self._watched().leads_to(condition, consequence, within, name)
+
+    def _watched(self) -> Watch:
+        if self._watch is None:
+            if len(self._simulators) != 1:
+                raise TypeError(
+                    "what has to hold over time is watched in the simulator of the test: it needs one as an argument, such as the fixture sim"
+                )
+            self._watch = Watch(self._simulators[0])
+        return self._watch
+
+    def _run(self, test: Callable[..., Any], args: Any, kwargs: Any) -> None:
+        """Runs the test for this case."""
+        self._begin()
+        try:
+            test(*args, g=self, **kwargs)
+            if self._watch:
+                self._watch.finish()
+        finally:
+            if self._watch:
+                self.robustness(self._watch.robustness)
+                self._watch.close()
+
 
 def _check_bounds(lo: float, hi: float) -> None:
     if not (math.isfinite(lo) and math.isfinite(hi)):
@@ -232,8 +274,9 @@ def _by_search(test: Callable[..., Any], cases: int, shrinks: int, seed: int) ->
     @functools.wraps(test)
     def run(*args: Any, **kwargs: Any) -> None:
         native = _swanilda.Cases(_name_of(test), _FAILURES, cases, shrinks, seed)
-        case = Cases(native)
-        restore = _restoring([*args, *kwargs.values()])
+        simulators = _simulators_of([*args, *kwargs.values()])
+        case = Cases(native, simulators)
+        restore = _restoring(simulators)
         while native.next():
             restore()
             native.finish(*_ended(test, case, args, kwargs))
@@ -264,10 +307,15 @@ def _without(test: Callable[..., Any], names: set[str]) -> inspect.Signature:
     return signature.replace(parameters=kept)
 
 
-def _restoring(values: Sequence[Any]) -> Callable[[], None]:
-    """A function that brings the simulators among the arguments back to where they are now."""
+def _simulators_of(values: Sequence[Any]) -> list[Simulator]:
+    """The simulators among the arguments of a test, each once."""
     simulators = [value for value in values if isinstance(value, Simulator)]
     simulators += [value.simulator for value in values if isinstance(getattr(value, "simulator", None), Simulator)]
+    return list(dict.fromkeys(simulators))
+
+
+def _restoring(simulators: Sequence[Simulator]) -> Callable[[], None]:
+    """A function that brings the simulators back to where they are now."""
     moments = [(simulator, simulator.snapshot()) for simulator in simulators]
 
     def restore() -> None:
@@ -278,9 +326,8 @@ def _restoring(values: Sequence[Any]) -> Callable[[], None]:
 
 
 def _ended(test: Callable[..., Any], case: Cases, args: Any, kwargs: Any) -> tuple[str, str, float]:
-    case._begin()
     try:
-        test(*args, g=case, **kwargs)
+        case._run(test, args, kwargs)
     except _Discarded:
         return "discarded", "", math.inf
     except Exception as error:
@@ -299,9 +346,8 @@ def _place_of(error: Exception) -> str:
 
 
 def _raise_failure(test: Any, case: Cases, args: Any, kwargs: Any, found: str, failing: Sequence[float]) -> None:
-    case._begin()
     try:
-        test(*args, g=case, **kwargs)
+        case._run(test, args, kwargs)
     except Exception as error:
         values = [found, *(f"    {note}" for note in case._notes)]
         case._native.keep(f"{type(error).__name__}: {error}", failing)
@@ -328,7 +374,7 @@ def _by_hypothesis(test: Callable[..., Any], strategies: dict[str, Any], cases: 
 
     @functools.wraps(test)
     def run(*args: Any, **kwargs: Any) -> None:
-        restore = _restoring([*args, *kwargs.values()])
+        restore = _restoring(_simulators_of([*args, *kwargs.values()]))
 
         @hypothesis.settings(max_examples=cases, deadline=None, database=None)
         @hypothesis.given(**strategies)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from .temporal import Watch
+
 
 class Script:
     """A script of a simulator. Its global functions are attributes: `script.position(2)`."""
@@ -57,11 +59,32 @@ class Simulator(_swanilda.Simulator):
     time_step: seconds. quiet: shows neither prints nor the log. unsafe_functions=False: scripts reach no files, programs or networks.
     """
 
+    _watches: tuple[Watch, ...] = ()
+
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+    def step(self, count: int = 1) -> int:
+        """Steps of the simulation; returns how many ran, fewer when a script stopped or paused it."""
+        if not self._watches:
+            return super().step(count)
+        for made in range(count):
+            if not super().step(1):
+                return made
+            self._sample()
+        return count
+
+    def iterate(self) -> None:
+        """One iteration of the loop, with a step if the simulation runs."""
+        super().iterate()
+        self._sample()
+
+    def _sample(self) -> None:
+        for watch in self._watches:
+            watch.sample()
 
     def branch(self, n: int) -> list[Simulator]:
         """Simulators that go on from the present moment, each as this one would: what happens in one is unknown to the others.

@@ -5,7 +5,6 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 
-import zmq
 from raw import Peer
 
 FOLDER = Path(sys.argv[2])

@@ -6,6 +6,7 @@ import os
 import pytest
 
 import swanilda
+from swanilda import temporal
 
 
 @pytest.fixture(autouse=True)
@@ -115,6 +116,91 @@ def test_a_simulator_is_brought_back_before_each_case(g, sim):
     sim.simulator.start()
     sim.simulator.step(5)
     assert sim.getObjectPosition(ball)[2] < height
+
+
+def falling(sim, height):
+    ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, [0.1, 0.1, 0.1])
+    sim.setObjectPosition(ball, [0, 0, height])
+    sim.setBoolProperty(ball, "dynamic", True)
+    sim.simulator.start()
+    return ball
+
+
+def test_what_holds_over_time_leads_the_search(sim):
+    @swanilda.property(cases=60)
+    def slow(g, sim):
+        ball = falling(sim, g.float(1, 5))
+        g.always(lambda: 7 + sim.getVelocity(ball)[0][2], "below 7 m/s")
+        sim.simulator.step(20)
+
+    error, text = failure(lambda: slow(sim=sim))
+    assert isinstance(error, temporal.Violation)
+    assert str(error).startswith("always 'below 7 m/s' does not hold at 0.")
+    assert "g.float(1, 5)" in text
+
+
+def test_what_has_to_come_about_is_missed_at_the_end(sim):
+    @swanilda.property(cases=60)
+    def low(g, sim):
+        ball = falling(sim, g.float(1, 20))
+        g.eventually(lambda: 0.2 - sim.getObjectPosition(ball)[2], name="lands")
+        sim.simulator.step(30)
+
+    error, text = failure(lambda: low(sim=sim))
+    assert "eventually 'lands' has not come about until the end at 1.5 s (by" in str(error)
+    # 9.81 / 2 * 1.5 s ** 2 = 11.04 m: the shortest number above that.
+    assert "-> 12" in text or "-> 11.3" in text
+
+
+def test_properties_without_a_simulator_watch_nothing():
+    @swanilda.property
+    def lost(g):
+        g.always(lambda: True)
+
+    error, _ = failure(lost)
+    assert "it needs one as an argument" in str(error)
+
+
+CASES_OVER_TIME = [
+    (lambda w, t: w.always(lambda: 0.5 - t(), "early"), "always 'early' does not hold at 0.55 s (by 0.05)"),
+    (lambda w, t: w.always(lambda: t() < 0.42), "always does not hold at 0.45 s"),
+    (lambda w, t: w.eventually(lambda: t() > 3, 0.5), "has not come about within 0.5 s"),
+    (lambda w, t: w.eventually(lambda: t() - 3), "until the end at 1 s (by 2)"),
+    (lambda w, t: w.eventually(lambda: t() > 3, 4), "at 1 s, before 4 s have passed"),
+    (lambda w, t: w.holds_until(lambda: t() < 0.42, lambda: t() > 0.6), "until does not hold at 0.45 s"),
+    (lambda w, t: w.holds_until(lambda: True, lambda: False, 0.3), "was not ended within 0.3 s"),
+    (lambda w, t: w.holds_until(lambda: True, lambda: False), "was not ended until the end at 1 s"),
+    (lambda w, t: w.leads_to(lambda: t() > 0.3, lambda: t() > 0.9, 0.2, "go"), "leads to 'go' was begun at 0.35 s and has led"),
+    (lambda w, t: w.always(lambda: "yes"), "returns a boolean or a number, not 'yes'"),
+]
+
+
+@pytest.mark.parametrize(("watched", "message"), CASES_OVER_TIME)
+def test_violations_say_when(simulator, watched, message):
+    simulator.start()
+    with pytest.raises((AssertionError, TypeError)) as caught, temporal.Watch(simulator) as watch:
+        watched(watch, lambda: simulator.time)
+        simulator.step(20)
+    assert message in str(caught.value)
+    assert simulator.step(5) == 5, "the watch is over"
+
+
+ROBUSTNESS = [
+    (lambda w, t: w.always(lambda: 3 - t()), 2),
+    (lambda w, t: w.eventually(lambda: t() - 0.25), 0.75),
+    (lambda w, t: w.holds_until(lambda: 1.5 - t(), lambda: t() - 0.475), 0.025),
+    # The least of max(0.2 - t, (t + 0.3) - 0.4) is where these are equal.
+    (lambda w, t: w.leads_to(lambda: t() - 0.2, lambda: t() - 0.4, 0.3), 0.05),
+]
+
+
+@pytest.mark.parametrize(("watched", "robustness"), ROBUSTNESS)
+def test_robustness_says_how_far_from_false_it_was(simulator, watched, robustness):
+    simulator.start()
+    with temporal.Watch(simulator) as watch:
+        watched(watch, lambda: simulator.time)
+        simulator.step(20)
+    assert watch.robustness == pytest.approx(robustness, abs=1e-9)
 
 
 def test_strategies_of_hypothesis_are_drawn_by_it():
