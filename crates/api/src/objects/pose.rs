@@ -314,11 +314,11 @@ fn get_object_velocity(cx: &Cx, object_handle: ObjectRef) -> Result<([f64; 3], [
     let scene = cx.scene();
     let measured = &scene.object(object_handle.handle)?.measured;
     let angular = if object_handle.has(flag::AXIS) {
-        measured.angular
+        measured.angular()
     } else {
-        measured.euler_rate
+        measured.euler_rate()
     };
-    Ok((measured.linear, angular))
+    Ok((measured.linear(), angular))
 }
 
 fn pose_in(cx: &Cx, object: ObjectRef, frame: impl Into<Frame>) -> Result<Pose> {

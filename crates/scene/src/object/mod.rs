@@ -13,6 +13,7 @@ pub mod viewers;
 use assembly::Assembly;
 use dummy::Dummy;
 use flags::{DynamicFlags, Layers, ModelFlags, ObjectFlags, SpecialFlags};
+use geometry::pose::velocity;
 use script_object::{ExecutionPriority, ScriptObject};
 use viewers::Viewers;
 
@@ -104,23 +105,49 @@ pub struct Object {
     pub kind: Kind,
 }
 
-/// The result of `sim.getObjectVelocity`.
+/// How an object moved between the last two measurements: the result of `sim.getObjectVelocity`. It is computed when it is read, since most is not.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasuredVelocity {
     /// World pose at the last measurement; None before the first one.
-    pub previous: Option<Pose>,
-    /// Velocity of the origin, m/s, world axes.
-    pub linear: [f64; 3],
-    /// Euler triple of the increment in the object's previous frame, over the step.
-    pub euler_rate: [f64; 3],
-    /// Axis times angle over the step, world axes.
-    pub angular: [f64; 3],
+    pub(crate) previous: Option<Pose>,
+    /// The world pose at the measurement before, seconds before; None when the object has not moved since.
+    pub(crate) from: Option<(Pose, f64)>,
 }
 
 impl MeasuredVelocity {
+    /// Velocity of the origin, m/s, world axes.
+    pub fn linear(&self) -> [f64; 3] {
+        self.between(velocity::linear_velocity)
+    }
+
+    /// Euler triple of the increment in the object's previous frame, over the step, rad/s.
+    pub fn euler_rate(&self) -> [f64; 3] {
+        self.turning(velocity::angular_velocity_euler)
+    }
+
+    /// Axis times angle over the step, rad/s, world axes.
+    pub fn angular(&self) -> [f64; 3] {
+        self.turning(velocity::angular_velocity_axis)
+    }
+
     /// Whether both have the same velocity, whatever the pose.
     pub(crate) fn same_velocity(&self, other: &Self) -> bool {
-        self.linear == other.linear && self.angular == other.angular
+        self.linear() == other.linear() && self.angular() == other.angular()
+    }
+
+    /// A velocity of rotation: exactly zero without one, whatever the arithmetic of rotations.
+    fn turning(&self, velocity: fn(&Pose, &Pose, f64) -> [f64; 3]) -> [f64; 3] {
+        self.between(|before, now, dt| {
+            if before.rotation == now.rotation {
+                return [0.0; 3];
+            }
+            velocity(before, now, dt)
+        })
+    }
+
+    fn between(&self, velocity: impl Fn(&Pose, &Pose, f64) -> [f64; 3]) -> [f64; 3] {
+        let moved = self.previous.as_ref().zip(self.from.as_ref());
+        moved.map_or([0.0; 3], |(now, (before, dt))| velocity(before, now, *dt))
     }
 }
 

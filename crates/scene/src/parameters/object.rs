@@ -57,8 +57,8 @@ impl Scene {
         let object = self.object(handle)?;
         let measured = &object.measured;
         Ok(match id {
-            11..=13 => Some(measured.linear[(id - 11) as usize]),
-            14 => Some(Vector3::from(measured.angular).norm()),
+            11..=13 => Some(measured.linear()[(id - 11) as usize]),
+            14 => Some(Vector3::from(measured.angular()).norm()),
             15..=20 => Some(corner(object.own_extent(), id - 15)),
             21..=26 => self
                 .model_extent(handle)?

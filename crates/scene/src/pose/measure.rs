@@ -2,8 +2,6 @@
 //!
 //! Only objects that moved since the last measurement, or were in motion at it, are measured: in most steps most objects rest.
 
-use geometry::pose::velocity;
-
 use crate::{Change, Field, Handle, MeasuredVelocity, Object, Pose, Scene, Topic, Uid};
 
 /// So many objects are listed at most; for more it is as fast to measure all of them.
@@ -111,28 +109,11 @@ impl Scene {
     }
 }
 
-/// Velocity over one step (spec: poses 4).
+/// The motion over one step (spec: poses 4).
 pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> MeasuredVelocity {
-    match (previous, dt) {
-        (Some(before), Some(dt)) if before != now => {
-            let turns = before.rotation != now.rotation;
-            let angular = |velocity: fn(&Pose, &Pose, f64) -> [f64; 3]| {
-                if turns {
-                    velocity(&before, &now, dt)
-                } else {
-                    [0.0; 3]
-                }
-            };
-            MeasuredVelocity {
-                previous: Some(now),
-                linear: velocity::linear_velocity(&before, &now, dt),
-                euler_rate: angular(velocity::angular_velocity_euler),
-                angular: angular(velocity::angular_velocity_axis),
-            }
-        }
-        _ => MeasuredVelocity {
-            previous: Some(now),
-            ..MeasuredVelocity::default()
-        },
+    let from = previous.zip(dt).filter(|(before, _)| *before != now);
+    MeasuredVelocity {
+        previous: Some(now),
+        from,
     }
 }

@@ -252,7 +252,7 @@ fn velocities_are_measured_from_one_step_to_the_next() {
     scene.measure_velocities(Some(0.1));
     scene.measure_velocities(Some(0.1));
     let measured = |scene: &Scene, handle| scene.object(handle).unwrap().measured.clone();
-    assert_eq!(measured(&scene, tip).linear, [0.0; 3]);
+    assert_eq!(measured(&scene, tip).linear(), [0.0; 3]);
     scene.set_joint_position(slider, 0.3).unwrap();
     scene.measure_velocities(Some(0.1));
     let close = |found: [f64; 3], expected: [f64; 3]| {
@@ -261,9 +261,9 @@ fn velocities_are_measured_from_one_step_to_the_next() {
             "{found:?} is not {expected:?}"
         );
     };
-    close(measured(&scene, tip).linear, [0.5, 0.0, 0.0]);
-    close(measured(&scene, slider).linear, [0.0; 3]);
-    assert_eq!(measured(&scene, tip).angular, [0.0; 3]);
+    close(measured(&scene, tip).linear(), [0.5, 0.0, 0.0]);
+    close(measured(&scene, slider).linear(), [0.0; 3]);
+    assert_eq!(measured(&scene, tip).angular(), [0.0; 3]);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.02);
     let before = scene.world_pose(tip).unwrap();
     scene
@@ -273,14 +273,14 @@ fn velocities_are_measured_from_one_step_to_the_next() {
         )
         .unwrap();
     scene.measure_velocities(Some(0.1));
-    close(measured(&scene, tip).angular, [0.0, 0.0, 0.2]);
-    close(measured(&scene, tip).linear, [0.0; 3]);
+    close(measured(&scene, tip).angular(), [0.0, 0.0, 0.2]);
+    close(measured(&scene, tip).linear(), [0.0; 3]);
     // It rests.
     scene.measure_velocities(Some(0.1));
     assert_eq!(
         (
-            measured(&scene, tip).angular,
-            measured(&scene, tip).euler_rate
+            measured(&scene, tip).angular(),
+            measured(&scene, tip).euler_rate()
         ),
         ([0.0; 3], [0.0; 3])
     );

@@ -42,7 +42,7 @@ pub(super) const DIRECT: &[Direct] = &[
         &[],
         any,
         &[Field::Measured],
-        |o, b| b.floats(&o.measured.linear),
+        |o, b| b.floats(&o.measured.linear()),
     ),
     direct(
         "calcRotationVelocity",
@@ -50,8 +50,8 @@ pub(super) const DIRECT: &[Direct] = &[
         any,
         &[Field::Measured],
         |o, b| {
-            b.floats(&o.measured.angular);
-            b.floats(&o.measured.euler_rate);
+            b.floats(&o.measured.angular());
+            b.floats(&o.measured.euler_rate());
         },
     ),
     direct("dynamicFlag", &[], any, &[Field::Measured], |o, b| {

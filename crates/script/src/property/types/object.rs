@@ -16,7 +16,7 @@ pub(in crate::property) const OWN: &[Accessor] = object_properties! {
     "layer": i64, |o| o.layer.number(), Layer |o, layer| o.layer = Layers::from_number(layer);
     "objectUid": Long, |o| Long(o.uid());
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
-    "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);
+    "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear());
     "calcRotationAxis": Vector3, |o| Vector3(rotation(o).0);
     "calcRotationVelocity": f64, |o| rotation(o).1;
     "hierarchyColor": i64, |o| o.hierarchy_colour, Inert |o, colour| o.hierarchy_colour = colour;
@@ -132,7 +132,7 @@ pub(in crate::property) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
 
 /// Axis and speed (rad/s) of the measured rotation, world axes; zeros for an object that does not turn.
 fn rotation(object: &Object) -> ([f64; 3], f64) {
-    let angular = nalgebra::Vector3::from(object.measured.angular);
+    let angular = nalgebra::Vector3::from(object.measured.angular());
     let axis = angular.try_normalize(0.0).unwrap_or_default();
     (axis.into(), angular.norm())
 }
