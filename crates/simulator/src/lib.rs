@@ -14,6 +14,7 @@ mod native_script;
 mod native_tests;
 mod picture;
 mod playback;
+mod prepared;
 mod run;
 mod scene;
 #[cfg(test)]
@@ -49,6 +50,7 @@ use native_script::{NativeLanguage, NativeScripts};
 pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
 pub use playback::{Loop, Moment, Playback};
+pub use prepared::PreparedCall;
 pub use run::{Run, RunLimits, RunObserver, RunTotals};
 pub use script::{
     CacheFolder, ChangedValue, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost,

@@ -1,7 +1,7 @@
 //! Quantities and actions, found in a scene once and read or written many times.
 
 use scene::{Data, ValueType};
-use simulator::{Simulator, property_getter, property_setter};
+use simulator::{PreparedCall, Simulator, property_getter, property_setter};
 
 use crate::declaration::{Action, Quantity};
 use crate::expressions::Expressions;
@@ -22,13 +22,14 @@ pub struct Readers {
 struct Reader {
     what: String,
     call: Call,
-    width: usize,
+    /// How many numbers it reads; None before it was read.
+    width: Option<usize>,
 }
 
 /// How numbers are read or written.
 pub(crate) enum Call {
     /// A function of the API, with its first arguments.
-    Api(&'static str, Vec<Data>),
+    Api(PreparedCall),
     /// A function of a script.
     Script(simulator::ScriptRef, String),
     /// An expression or statement.
@@ -36,6 +37,17 @@ pub(crate) enum Call {
 }
 
 impl Call {
+    fn is_api(&self) -> bool {
+        self.api().is_some()
+    }
+
+    fn api(&self) -> Option<&PreparedCall> {
+        match self {
+            Self::Api(call) => Some(call),
+            Self::Script(..) | Self::Expression(_) => None,
+        }
+    }
+
     /// The results for further arguments.
     pub(crate) fn perform(
         &self,
@@ -44,8 +56,7 @@ impl Call {
         more: &[Data],
     ) -> Result<Vec<Data>, String> {
         let results = match self {
-            Self::Api(function, args) if more.is_empty() => simulator.call_api(function, args),
-            Self::Api(function, args) => simulator.call_api(function, &[args, more].concat()),
+            Self::Api(call) => simulator.call_once(call, more),
             Self::Script(script, function) => simulator.call(script, function, more),
             Self::Expression(number) => return expressions.run(simulator, *number, more),
         };
@@ -73,7 +84,7 @@ pub(crate) fn property(
     let ty = simulator.property_type(handle, name);
     let ty = ty.map_err(|error| format!("property '{name}' of '{path}': {error}"))?;
     let args = vec![Data::Int(handle), Data::text(name)];
-    Ok(Call::Api(of_type(ty), args))
+    Ok(Call::Api(simulator.prepare_call(of_type(ty), args)))
 }
 
 fn function(simulator: &mut Simulator, path: &str, name: &str) -> Result<Call, String> {
@@ -100,14 +111,14 @@ impl Readers {
             let mut reader = Reader {
                 what: quantity.to_string(),
                 call,
-                width: 0,
+                width: None,
             };
             let mut values = Vec::new();
             reader.read(simulator, expressions, &mut values)?;
-            reader.width = values.len();
+            reader.width = Some(values.len());
             all.push(reader);
         }
-        let width = all.iter().map(|reader| reader.width).sum();
+        let width = all.iter().filter_map(|reader| reader.width).sum();
         Ok(Self { all, width })
     }
 
@@ -118,7 +129,7 @@ impl Readers {
 
     /// How many numbers each quantity has.
     pub fn widths(&self) -> Vec<usize> {
-        self.all.iter().map(|reader| reader.width).collect()
+        self.all.iter().filter_map(|reader| reader.width).collect()
     }
 
     /// Reads them all.
@@ -131,19 +142,29 @@ impl Readers {
         expressions: &Expressions,
     ) -> Result<Vec<f64>, String> {
         let mut values = Vec::with_capacity(self.width);
-        for reader in &self.all {
-            let before = values.len();
-            reader.read(simulator, expressions, &mut values)?;
-            let count = values.len() - before;
-            if count != reader.width {
-                return Err(format!(
-                    "{}: {count} numbers, where there were {} at first.",
-                    reader.what, reader.width
-                ));
+        for readers in self.all.chunk_by(|a, b| a.call.is_api() && b.call.is_api()) {
+            match readers {
+                [reader] => reader.read(simulator, expressions, &mut values)?,
+                readers => values = read_together(readers, simulator, &values)?,
             }
         }
         Ok(values)
     }
+}
+
+/// Adds what readers of functions of the API read.
+fn read_together(
+    readers: &[Reader],
+    simulator: &mut Simulator,
+    before: &Vec<f64>,
+) -> Result<Vec<f64>, String> {
+    let calls = readers.iter().filter_map(|reader| reader.call.api());
+    let calls = calls.map(|call| (call, None));
+    let add = |values: &mut Vec<f64>, number: usize, results: &[Data]| {
+        readers[number].add(results, values)
+    };
+    let read = simulator.call_prepared(calls, before, add);
+    read.map_err(|(number, error)| format!("{}: {error}", readers[number].what))
 }
 
 impl Reader {
@@ -154,15 +175,22 @@ impl Reader {
         values: &mut Vec<f64>,
     ) -> Result<(), String> {
         let results = self.call.perform(simulator, expressions, &[]);
-        let results = results.map_err(|error| format!("{}: {error}", self.what))?;
+        let added = results.and_then(|results| self.add(&results, values));
+        added.map_err(|error| format!("{}: {error}", self.what))
+    }
+
+    /// Adds the numbers of its results.
+    fn add(&self, results: &[Data], values: &mut Vec<f64>) -> Result<(), String> {
+        let before = values.len();
         let is_number = |data| add_numbers(data, values);
         if results.is_empty() || !results.iter().all(is_number) {
-            return Err(format!(
-                "{}: numbers are needed, or lists of them.",
-                self.what
-            ));
+            return Err("numbers are needed, or lists of them.".to_owned());
         }
-        Ok(())
+        let count = values.len() - before;
+        let expected = self.width.unwrap_or(count);
+        (count == expected)
+            .then_some(())
+            .ok_or_else(|| format!("{count} numbers, where there were {expected} at first."))
     }
 }
 
@@ -201,7 +229,8 @@ fn reader(
             return Ok(Call::Expression(number));
         }
     };
-    Ok(Call::Api(api, vec![Data::Int(object(simulator, path)?)]))
+    let args = vec![Data::Int(object(simulator, path)?)];
+    Ok(Call::Api(simulator.prepare_call(api, args)))
 }
 
 /// Actions in one simulator.
@@ -248,14 +277,41 @@ impl Writers {
         expressions: &Expressions,
         values: &[f64],
     ) -> Result<(), String> {
-        for (writer, value) in self.0.iter().zip(values) {
-            let result = writer
-                .call
-                .perform(simulator, expressions, &[Data::Float(*value)]);
-            result.map_err(|error| format!("{}: {error}", writer.what))?;
+        let mut values = values.iter().copied();
+        for writers in self.0.chunk_by(|a, b| a.call.is_api() && b.call.is_api()) {
+            match writers {
+                [writer] => writer.write(simulator, expressions, &mut values)?,
+                writers => write_together(writers, simulator, &mut values)?,
+            }
         }
         Ok(())
     }
+}
+
+impl Writer {
+    fn write(
+        &self,
+        simulator: &mut Simulator,
+        expressions: &Expressions,
+        values: &mut impl Iterator<Item = f64>,
+    ) -> Result<(), String> {
+        let value: Vec<_> = values.take(1).map(Data::Float).collect();
+        let results = self.call.perform(simulator, expressions, &value);
+        let results = results.map_err(|error| format!("{}: {error}", self.what));
+        results.map(|_| ())
+    }
+}
+
+/// Writes by functions of the API.
+fn write_together(
+    writers: &[Writer],
+    simulator: &mut Simulator,
+    values: &mut impl Iterator<Item = f64>,
+) -> Result<(), String> {
+    let calls = writers.iter().filter_map(|writer| writer.call.api());
+    let calls = calls.zip(values.map(Some));
+    let written = simulator.call_prepared(calls, &(), |(), _, _| Ok(()));
+    written.map_err(|(number, error)| format!("{}: {error}", writers[number].what))
 }
 
 fn writer(
@@ -281,7 +337,7 @@ fn writer(
     let args = [joint.clone(), Data::text("dynCtrlMode"), Data::Int(mode)];
     let set = simulator.call_api("sim.setIntProperty", &args);
     set.map_err(|error| format!("{action}: {error}"))?;
-    Ok(Call::Api(api, vec![joint]))
+    Ok(Call::Api(simulator.prepare_call(api, vec![joint])))
 }
 
 impl std::fmt::Display for Quantity {

@@ -194,8 +194,8 @@ fn places(
         }
     };
     // The value stands between the object and its frame.
-    let read = Call::Api(read, args.clone());
-    let write = Call::Api(write, args);
+    let read = Call::Api(simulator.prepare_call(read, args.clone()));
+    let write = Call::Api(simulator.prepare_call(write, args));
     Ok(vec![place(simulator, &read, write)?])
 }
 
