@@ -257,7 +257,7 @@ fn wrong_properties_are_explained() {
             "fog is no fault",
         ),
         (
-            "t.property('x', function(g) while true do g.boolean() end end)",
+            "t.property('x', {shrinks = 2}, function(g) while true do g.boolean() end end)",
             "at most 10000 times",
         ),
         (
