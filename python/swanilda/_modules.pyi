@@ -666,6 +666,21 @@ class _path_customization:
 class _priorityqueue:
     def unittest(self, /) -> Any: ...
 
+class _remote_ros2:
+    def afterEnd(self, /) -> Any: ...
+    def beforeStart(self, /) -> Any: ...
+    def beforeStep(self, /) -> Any:
+        """Whether the next step is held back.
+        """
+    def matches(self, expression: str, text: str, /) -> bool:
+        """Whether a regular expression matches somewhere in a text.
+        expression: extended regular expression
+        text: the text
+        """
+    def start(self, /) -> Any:
+        """Creates the servers; without a node of ROS 2 that is an error of the add-on.
+        """
+
 class _remote_ws:
     def setStepping(self, enable: Any | None = ..., /) -> Any:
         """the simulation advances only by
@@ -10747,6 +10762,8 @@ class Requires:
     def require(self, name: Literal["path_customization"], script: int | None = None) -> _path_customization: ...
     @overload
     def require(self, name: Literal["priorityqueue"], script: int | None = None) -> _priorityqueue: ...
+    @overload
+    def require(self, name: Literal["remote.ros2"], script: int | None = None) -> _remote_ros2: ...
     @overload
     def require(self, name: Literal["remote.ws"], script: int | None = None) -> _remote_ws: ...
     @overload

@@ -7,3 +7,10 @@ use crate::web::check;
 fn topics_and_services_with_cyclone_dds() {
     check("ros2_peers.py");
 }
+
+/// Every service and the action of the standard simulation interfaces.
+#[test]
+#[cfg(target_os = "linux")]
+fn simulation_interfaces_with_cyclone_dds() {
+    check("ros2_interfaces.py");
+}

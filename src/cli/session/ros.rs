@@ -20,6 +20,9 @@ pub(in crate::cli) struct RosArgs {
     /// Publish the time of the simulation, the poses of all objects and the joints by ROS 2 (/clock, /tf, /joint_states)
     #[arg(long)]
     ros2_bridge: bool,
+    /// Offer ROS 2's standard simulation interfaces (simulation_interfaces 2.1.0: states, steps, entities, worlds), and publish what --ros2-bridge does
+    #[arg(long)]
+    ros2: bool,
     /// Prefixes of installed packages with interfaces of ROS 2
     #[arg(long, hide = true, env = "AMENT_PREFIX_PATH", value_delimiter = ':')]
     ament_prefix_path: Vec<PathBuf>,
@@ -37,6 +40,16 @@ pub(in crate::cli) struct RosArgs {
     ros_namespace: String,
 }
 
+/// The add-on of `--ros2` that offers the standard simulation interfaces.
+const INTERFACES: &[u8] = b"interfaces = require 'remote.ros2'
+function sysCall_init() interfaces.start() end
+sysCall_nonSimulation, sysCall_suspended = interfaces.wait, interfaces.wait
+function sysCall_beforeSimulation() interfaces.beforeStart() end
+function sysCall_beforeMainScript() return {doNotRunMainScript = interfaces.beforeStep()} end
+function sysCall_sensing() interfaces.afterStep() end
+function sysCall_afterSimulation() interfaces.afterEnd() end
+";
+
 /// The add-on of `--ros2-bridge`.
 const BRIDGE: &[u8] = b"bridge = require 'swanilda.ros2_bridge'
 function sysCall_init() bridge.start() end
@@ -46,9 +59,9 @@ function sysCall_sensing() bridge.publish() end
 impl RosArgs {
     /// The add-ons that the options ask for: names and texts.
     pub(in crate::cli) fn add_ons(&self) -> impl Iterator<Item = (&'static str, &'static [u8])> {
-        self.ros2_bridge
-            .then_some(("ros2Bridge", BRIDGE))
-            .into_iter()
+        let bridge = (self.ros2 || self.ros2_bridge).then_some(("ros2Bridge", BRIDGE));
+        let interfaces = self.ros2.then_some(("ros2Interfaces", INTERFACES));
+        bridge.into_iter().chain(interfaces)
     }
 
     /// For a scene in this folder, beside which interfaces are searched too.

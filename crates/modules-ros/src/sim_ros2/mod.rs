@@ -40,3 +40,9 @@ pub static MODULE: Module = Module {
     plugin_errors: true,
     ..Module::new("simROS2")
 };
+
+/// The module `remote.ros2`.
+pub static REMOTE: Module = Module {
+    inner: &[services::ANSWERED_LATER],
+    ..Module::new("remote.ros2")
+};

@@ -29,6 +29,12 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
     service_treat_u_int8_array_as_string,
 ];
 
+/// What the servers of standard simulation interfaces need (`lua/library/remote/ros2.lua`).
+pub(super) const ANSWERED_LATER: &[ApiFn] =
+    functions![create_service_answered_later, respond, matches];
+
+/// Bytes of a compiled regular expression.
+const MAX_EXPRESSION: usize = 1 << 20;
 /// Answers that nobody asks for any more are left out.
 const MAX_REPLIES: usize = 100;
 
@@ -159,26 +165,52 @@ pub(super) struct Service {
     server: Server,
     callback: ScriptCallback,
     style: Cell<Style>,
+    /// None where the function returns the response.
+    unanswered: Option<Unanswered>,
+}
+
+/// Requests of a service whose responses come after its function has returned, by number.
+#[derive(Default)]
+struct Unanswered {
+    last: Cell<i64>,
+    calls: RefCell<BTreeMap<i64, Correlation>>,
+}
+
+impl Unanswered {
+    /// The number of a request; the oldest one gets no response any more when there are many.
+    fn add(&self, call: Correlation) -> i64 {
+        let number = self.last.get() + 1;
+        self.last.set(number);
+        let mut calls = self.calls.borrow_mut();
+        calls.insert(number, call);
+        while calls.len() > MAX_REPLIES {
+            calls.pop_first();
+        }
+        number
+    }
 }
 
 impl Service {
     /// Calls back for each request, and sends what the function returns. No reply is sent when it fails.
     pub(super) fn spin(&self) {
         for (call, request) in self.server.arrived() {
-            let style = self.style.get();
-            let Some(results) = self
-                .callback
-                .call_logged(&[ros_values::to_data(&request, style)])
-            else {
-                continue;
-            };
-            let response = results.into_iter().next().unwrap_or(Data::Nil);
-            match ros_values::from_data(&self.server.response, &response, style) {
-                Ok(response) => self.server.reply(call, &response),
-                Err(problem) => self.callback.warn(&format!(
-                    "the response of a service was not sent: {problem}"
-                )),
+            let request = ros_values::to_data(&request, self.style.get());
+            if let Some(unanswered) = &self.unanswered {
+                let number = Data::Int(unanswered.add(call));
+                self.callback.call_logged(&[request, number]);
+            } else if let Some(results) = self.callback.call_logged(&[request]) {
+                let response = results.into_iter().next().unwrap_or(Data::Nil);
+                self.reply(call, &response);
             }
+        }
+    }
+
+    fn reply(&self, call: Correlation, response: &Data) {
+        match ros_values::from_data(&self.server.response, response, self.style.get()) {
+            Ok(response) => self.server.reply(call, &response),
+            Err(problem) => self.callback.warn(&format!(
+                "the response of a service was not sent: {problem}"
+            )),
         }
     }
 }
@@ -289,15 +321,90 @@ fn create_service(
     service_type: String,
     service_callback: ScriptFunction,
 ) -> Result<String> {
-    let layouts = interfaces::service(cx, &service_type)?;
+    add_service(cx, &service_name, &service_type, service_callback, None)
+}
+
+fn add_service(
+    cx: &mut Cx,
+    name: &str,
+    service_type: &str,
+    callback: ScriptFunction,
+    unanswered: Option<Unanswered>,
+) -> Result<String> {
+    let layouts = interfaces::service(cx, service_type)?;
     let running = running(cx)?;
-    let server = Server::new(&running, &running.resolve(&service_name)?, layouts);
+    let server = Server::new(&running, &running.resolve(name)?, layouts);
     let service = Service {
         server,
-        callback: ScriptCallback::new(cx, service_callback),
+        callback: ScriptCallback::new(cx, callback),
         style: Cell::default(),
+        unanswered,
     };
     Ok(add(cx, Entity::Service(Rc::new(service))))
+}
+
+/// Creates a server of a service whose responses come later. The callback gets the request as a table, and its number.
+///
+/// @param serviceName as for simROS2.createService
+/// @param serviceType `pkg/srv/Name`
+/// @param callback a function
+/// @return serviceHandle it ends with the script
+#[api("remote.ros2.createService")]
+fn create_service_answered_later(
+    cx: &mut Cx,
+    service_name: String,
+    service_type: String,
+    callback: ScriptFunction,
+) -> Result<String> {
+    let unanswered = Some(Unanswered::default());
+    add_service(cx, &service_name, &service_type, callback, unanswered)
+}
+
+/// Sends the response to a request, once.
+///
+/// @param serviceHandle the server
+/// @param number of the request
+/// @param response a table with the fields of the response
+#[api("remote.ros2.respond")]
+fn respond(cx: &mut Cx, service_handle: String, number: i64, response: Table) -> Result<()> {
+    let service = get(cx, &service_handle, service)?;
+    let calls = service
+        .unanswered
+        .as_ref()
+        .map(|unanswered| &unanswered.calls);
+    if let Some(call) = calls.and_then(|calls| calls.borrow_mut().remove(&number)) {
+        service.reply(call, &without_empty_texts(response.0));
+    }
+    Ok(())
+}
+
+/// Fields with an empty text are left out, which means the same: simROS2 refuses them, as the original does.
+fn without_empty_texts(data: Data) -> Data {
+    match data {
+        Data::Map(entries) => {
+            let is_kept = |value: &Data| !matches!(value, Data::Text(text) if text.is_empty());
+            let kept = entries.into_iter().filter(|(_, value)| is_kept(value));
+            Data::Map(
+                kept.map(|(key, value)| (key, without_empty_texts(value)))
+                    .collect(),
+            )
+        }
+        Data::Array(items) => Data::Array(items.into_iter().map(without_empty_texts).collect()),
+        other => other,
+    }
+}
+
+/// Whether a regular expression matches somewhere in a text.
+///
+/// @param expression extended regular expression
+/// @param text the text
+/// @return matches nil where the expression is none
+#[api("remote.ros2.matches")]
+fn matches(_cx: &Cx, expression: String, text: String) -> Result<Option<bool>> {
+    let compiled = regex::RegexBuilder::new(&expression)
+        .size_limit(MAX_EXPRESSION)
+        .build();
+    Ok(compiled.ok().map(|compiled| compiled.is_match(&text)))
 }
 
 /// Ends a server of a service.

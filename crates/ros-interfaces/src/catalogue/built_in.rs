@@ -21,7 +21,7 @@ const ROS1: Packages = packages! { "ros1":
 const ROS2: Packages = packages! { "ros2":
     "action_msgs", "action_tutorials_interfaces", "actionlib_msgs", "builtin_interfaces", "control_msgs",
     "diagnostic_msgs", "example_interfaces", "geometry_msgs", "lifecycle_msgs", "nav_msgs", "rcl_interfaces",
-    "rmw_dds_common", "rosgraph_msgs", "sensor_msgs", "service_msgs", "shape_msgs", "statistics_msgs",
+    "rmw_dds_common", "rosgraph_msgs", "sensor_msgs", "service_msgs", "shape_msgs", "simulation_interfaces", "statistics_msgs",
     "std_msgs", "std_srvs", "stereo_msgs", "tf2_msgs", "trajectory_msgs", "turtlesim",
     "type_description_interfaces", "unique_identifier_msgs", "visualization_msgs",
 };
