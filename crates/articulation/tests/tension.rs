@@ -141,6 +141,24 @@ fn slides_and_welds_have_no_axis_that_could_swing() {
     }
 }
 
+/// About an axis that leans by an angle out of the plane across the tension, the stiffness is as much smaller as the square of its cosine, and so is
+/// what the mass contributes.
+#[test]
+fn about_an_axis_that_leans_less_is_stiff() {
+    for (lever, lean) in [(0.3, 0.5_f64), (3.0, 0.5), (3.0, -1.0)] {
+        let axis = Vector3::new(0.0, lean.cos(), lean.sin());
+        let whole = INERTIA + MASS * (lever * lean.cos()).powi(2);
+        for (ratio, inertia) in [(2.9, whole), (3.1, 1.55 * whole), (50.0, 25.0 * whole)] {
+            let mut rig = rig(JointKind::Revolute, axis, 0.0, Vector3::z() * -lever);
+            rig.body.force[0] = PUSH;
+            rig.body.force[2] = -ratio * whole / (lever * lean.cos().powi(2) * STEP * STEP);
+            rig.begin(Vector3::zeros());
+            let (_, angular) = rig.velocity();
+            is_turn(angular.dot(&axis), -lever * lean.cos() * PUSH / inertia);
+        }
+    }
+}
+
 /// Two light rods and a load in a line below a base, all hinged about y; the joint in the middle is pulled aside like a string.
 fn string(load: f64) -> (Mechanism, Vec<BodyState>) {
     const LENGTH: f64 = 0.1;
