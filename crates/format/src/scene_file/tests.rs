@@ -3,6 +3,7 @@
 mod everything;
 mod models;
 mod old_files;
+mod on_disk;
 mod other_programs;
 mod recognised;
 mod surfaces;

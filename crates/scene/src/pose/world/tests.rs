@@ -317,6 +317,74 @@ fn poses_are_composed_upwards() {
     }
 }
 
+/// Beyond a stretch the pose of its end in the world stands for all above it.
+#[test]
+fn poses_beyond_a_stretch_are_composed_from_its_end() {
+    let mut play = empty_play();
+    let stretch = STRETCH as usize;
+    let all = chain(&mut play, 2 * stretch + 20);
+    let object = |at: usize| play.scene.object(all[at]).unwrap();
+    let world = |at: usize| play.scene.world_pose(all[at]).unwrap();
+    for (end, at) in [
+        (stretch, stretch + 1),
+        (stretch, 2 * stretch),
+        (2 * stretch, 2 * stretch + 19),
+    ] {
+        let upwards = (end + 1..at).rev().fold(object(at).pose(), |pose, above| {
+            let own = object(above).intrinsic_pose();
+            object(above).pose() * own.map_or(pose, |own| own * pose)
+        });
+        let of_end = object(end)
+            .intrinsic_pose()
+            .map_or(world(end), |own| world(end) * own);
+        assert_eq!(bits(&world(at)), bits(&(of_end * upwards)), "{at}");
+    }
+}
+
+/// Objects a metre apart along x, each on the one before, with slides that are pulled out along z and up.
+#[test]
+fn a_long_chain_is_as_long_as_its_links() {
+    let mut scene = Scene::new();
+    let mut all: Vec<Handle> = Vec::new();
+    for at in 0..200 {
+        let kind = if at % 32 == 0 {
+            let slide = Joint::new(JointType::Prismatic, JointMode::Kinematic);
+            Kind::Joint(Box::new(slide))
+        } else {
+            Kind::Dummy(Dummy::new(0.01))
+        };
+        let new = scene.add("o", kind).unwrap();
+        scene.set_parent(new, all.last().copied(), false).unwrap();
+        let pose = Pose::translation(1.0, 0.0, 0.0);
+        scene.set_local_pose(new, pose).unwrap();
+        if at % 32 == 0 {
+            scene.set_joint_position(new, 0.25).unwrap();
+        }
+        all.push(new);
+    }
+    for at in [199, 64, 65, 128, 130, 0, 1] {
+        let above = (at as f64 / 32.0).ceil();
+        let expected = Pose::translation(at as f64 + 1.0, 0.0, 0.25 * above);
+        let found = scene.world_pose(all[at]).unwrap();
+        let gap = found.translation.vector - expected.translation.vector;
+        assert!(gap.norm() < 1e-9, "{at}: {found}");
+        assert!(found.rotation.angle() < 1e-9, "{at}: {found}");
+    }
+}
+
+#[test]
+fn poses_that_differ_in_one_number_have_other_bits() {
+    let pose = Pose::translation(1.0, 2.0, 3.0);
+    let turn = Vector3::new(0.0, 1e-9, 0.0);
+    for other in [
+        Pose::translation(1.0, 2.0, 3.0_f64.next_up()),
+        Pose::new(Vector3::new(1.0, 2.0, 3.0), turn),
+    ] {
+        assert_ne!(bits(&pose), bits(&other));
+    }
+    assert_eq!(bits(&pose), bits(&pose.clone()));
+}
+
 #[test]
 fn a_chain_is_built_without_visiting_all_of_it_each_time() {
     let mut play = empty_play();
