@@ -225,12 +225,13 @@ mod tests {
                 Engine::Bullet,
                 Motion {
                     position: 0.0,
-                    velocity: 1.0,
+                    velocity: 3.0,
                 },
                 0.005,
             )
             .expect("on");
-        assert!((drive.force - 0.9).abs() < 1e-12);
+        // 2 times 0.5 less 0.1 times 3.
+        assert!((drive.force - 0.7).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
     }
 

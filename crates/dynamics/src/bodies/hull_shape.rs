@@ -144,6 +144,8 @@ mod tests {
         }
         assert_eq!(shape.compute_local_aabb(), polyhedron.compute_local_aabb());
         assert_eq!(shape.ccd_thickness(), polyhedron.ccd_thickness());
+        let angle = shape.ccd_angular_thickness();
+        assert!(angle > 0.0 && angle == polyhedron.ccd_angular_thickness());
         let (sphere, expected) = (
             shape.compute_local_bounding_sphere(),
             polyhedron.compute_local_bounding_sphere(),
@@ -184,6 +186,9 @@ mod tests {
                 .project_local_point(Vector::splat(0.5), true)
                 .is_inside
         );
+        let wide = shape.scale_dyn(Vector::new(3.0, 1.0, 1.0), 0);
+        let wide = wide.expect("hulls can be scaled").compute_local_aabb();
+        assert_eq!(wide.maxs, Vector::new(3.0, 1.0, 1.0));
         let (map, border) = shape.as_polygonal_feature_map().expect("it has faces");
         assert_eq!(border, 0.0);
         assert_eq!(

@@ -84,6 +84,9 @@ fn meshes_become_hulls_pieces_or_surfaces() {
     assert_eq!(kind(block([1e-8; 3]), true, true), None);
     assert_eq!(kind(block([1e7, 1.0, 1.0]), true, true), None);
     assert_eq!(kind(Mesh::default(), true, true), None);
+    let corners = vec![[0.0; 3], [0.2, 0.0, 0.0], [0.0, 0.3, 0.0]];
+    let triangle = Mesh::new(corners, vec![[0, 1, 2]]).expect("it has its vertices");
+    assert_eq!(kind(triangle, false, true), Some(Making::Surface));
     let hull = part(block(size), None, true);
     let (half, volume) = extents(&hull);
     let expected = size.map(|extent| extent / 2.0);
