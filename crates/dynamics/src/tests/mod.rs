@@ -8,6 +8,7 @@ mod first_contacts;
 mod free_bodies;
 mod joints;
 mod loops;
+mod masses;
 mod random_trees;
 mod sleep;
 mod surfaces;

@@ -228,6 +228,18 @@ fn items_in_a_volume() {
     );
 }
 
+/// Along the axis and 0.3 m beside it: a cone whose half angle is 0.6 rad is as wide at 0.3 m over the tangent of that, but for its facets.
+#[test]
+fn a_segment_enters_a_cone_at_its_side() {
+    for beside in [[0.3, 0.0], [-0.3, 0.0], [0.0, 0.3]] {
+        let [x, y] = beside;
+        let hit = asked(VolumeType::Cone, 1, &[x, y, 0.0, x, y, 1.5]).expect("it enters");
+        let expected = 0.3 / 0.6_f64.tan();
+        assert!((hit.point[2] / expected - 1.0).abs() < 0.03, "{hit:?}");
+        assert!((hit.point[0] - x).abs() < 1e-9 && (hit.point[1] - y).abs() < 1e-9);
+    }
+}
+
 #[test]
 fn rays_see_triangles_only() {
     let ray = VolumeType::Ray;
