@@ -10,6 +10,7 @@ mod joints;
 mod loops;
 mod masses;
 mod random_trees;
+mod roles;
 mod sleep;
 mod surfaces;
 mod tumbling;
