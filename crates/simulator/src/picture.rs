@@ -1,7 +1,7 @@
 //! Pictures and videos of the scene for Rust programs.
 
 use super::{Error, Simulator};
-use perception::vision::{Channels, Picture, projection};
+use perception::vision::{Channels, Picture, Viewpoint, projection};
 use scene::Handle;
 use scene::sensor::View;
 use script::{ApiError, VideoFailure, VideoOptions};
@@ -24,6 +24,26 @@ impl Simulator {
             vision.view(&scene, from, resolution, channels)
         });
         Ok(picture.map_err(ApiError::from)?)
+    }
+
+    /// What is seen from a viewpoint, in a picture of that width and height, and the projection with which it is drawn.
+    ///
+    /// # Errors
+    /// When the object of the viewpoint is gone.
+    pub fn picture_from(
+        &self,
+        viewpoint: &Viewpoint,
+        resolution: [u32; 2],
+        channels: Channels,
+    ) -> Result<(Picture, View), Error> {
+        let seen = self.copied(|sim| {
+            let scene = sim.scene.borrow();
+            let shot = viewpoint.shot(&scene, resolution)?;
+            let vision = &mut sim.perception.borrow_mut().vision;
+            let picture = vision.picture(&scene, &shot, channels);
+            Ok((picture, shot.view))
+        });
+        seen.map_err(|error: scene::SceneError| ApiError::from(error).into())
     }
 
     /// The projection with which `picture` draws: near and far plane, angle, resolution.

@@ -24,6 +24,8 @@ pub struct PropertyRow {
     pub value: Data,
     /// Whether scripts can set it.
     pub is_writable: bool,
+    /// What it is, in a sentence; empty for properties of scripts.
+    pub description: &'static str,
 }
 
 /// What scripts and physics have done, for those who watch a run.
@@ -230,6 +232,7 @@ pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, Api
                 ty: row.ty,
                 value,
                 is_writable,
+                description: row.description,
             })
         })
         .collect();
@@ -246,6 +249,7 @@ pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, Api
             ty,
             value,
             is_writable: true,
+            description: "",
         });
     }
     Ok(rows)

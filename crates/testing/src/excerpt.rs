@@ -68,7 +68,7 @@ fn cut(line: &str) -> String {
 }
 
 /// The positions `[string "NAME"]:LINE:` of a message, before its traceback.
-pub(super) fn positions(message: &str) -> Vec<(&str, u32)> {
+pub fn positions(message: &str) -> Vec<(&str, u32)> {
     let text = message
         .split("\nstack traceback:")
         .next()

@@ -30,7 +30,7 @@ pub use captures::{Captures, replay};
 pub use case::{Outcome, Status, TestCase};
 pub use coverage::{Coverage, FileCoverage};
 pub use discover::find_files;
-pub use excerpt::Excerpt;
+pub use excerpt::{Excerpt, positions};
 pub use golden::{
     Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage,
     Recordings,

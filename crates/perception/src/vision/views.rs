@@ -62,6 +62,22 @@ impl Viewpoint {
         Ok(from.map_or_else(|| Self::Place(Box::new(shot)), Self::Object))
     }
 
+    /// A place of one's own, from which the default camera looks at a point.
+    pub fn looking(eye: [f64; 3], target: [f64; 3]) -> Self {
+        let direction = Vector3::from(target) - Vector3::from(eye);
+        let is_upright = direction.xy().norm() < 1e-6 * direction.norm();
+        let up = if is_upright {
+            Vector3::y()
+        } else {
+            Vector3::z()
+        };
+        let rotation = UnitQuaternion::face_towards(&direction, &up);
+        let pose = Pose::from_parts(Vector3::from(eye).into(), rotation);
+        let mut shot = camera_shot(None, pose, Camera::default().view);
+        shot.view.clipping[1] = shot.view.clipping[1].max(4.0 * direction.norm());
+        Self::Place(Box::new(shot))
+    }
+
     /// Width and height of a vision sensor.
     pub fn resolution(&self, scene: &Scene) -> Option<[u32; 2]> {
         let Self::Object(handle) = self else {
