@@ -19,6 +19,7 @@ mod files;
 mod init;
 mod inspect;
 mod library;
+mod mcp;
 mod original;
 mod remote;
 mod render;
@@ -65,6 +66,7 @@ enum Command {
     Replay(replay::Args),
     View(view::Args),
     Serve(serve::Args),
+    Mcp(mcp::Args),
     Debug(debug::Args),
     Test(test::Args),
     Search(search::Args),
@@ -136,6 +138,7 @@ impl Command {
             Self::Replay(args) => replay::replay(&args),
             Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),
+            Self::Mcp(args) => mcp::serve(&args),
             Self::Debug(args) => debug::debug(&args),
             Self::Test(args) => Ok(test::test(&args)),
             Self::Search(args) => Ok(search::search(&args)),

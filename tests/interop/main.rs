@@ -8,6 +8,7 @@
     reason = "tests start programs and look at the environment"
 )]
 
+mod agents;
 mod capture;
 mod debugger;
 mod foreign;
