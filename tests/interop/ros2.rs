@@ -14,3 +14,10 @@ fn topics_and_services_with_cyclone_dds() {
 fn simulation_interfaces_with_cyclone_dds() {
     check("ros2_interfaces.py");
 }
+
+/// Ten runs under load, with nodes that answer late and in any order, end in the same state.
+#[test]
+#[cfg(target_os = "linux")]
+fn lock_step_with_cyclone_dds() {
+    check("ros2_lockstep.py");
+}

@@ -135,7 +135,7 @@ def until(what, ask, limit=LIMIT):
 
 
 def samples(of):
-    return [sample for sample in of.take(N=1000) if hasattr(sample, "__dataclass_fields__")]
+    return [sample for sample in of.take(N=1000) if type(sample).__name__ != "InvalidSample"]
 
 
 class Client:

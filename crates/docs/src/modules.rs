@@ -51,6 +51,7 @@ const INNER: &[&str] = &[
     "remote/link",
     "remote/ros2_entities",
     "remote/ros2_initial_state",
+    "remote/ros2_lockstep",
     "remote/ros2_results",
     "remote/ros2_spawning",
     "remote/ros2_worlds",

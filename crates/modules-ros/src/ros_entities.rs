@@ -91,11 +91,11 @@ impl<E: Clone + 'static> Entities<E> {
     }
 
     /// Visits what there is now in the order of creation. A visit may end others, and add some, which are not visited.
-    pub(super) fn for_each(&self, visit: impl Fn(E)) {
+    pub(super) fn for_each(&self, mut visit: impl FnMut(E)) {
         let numbers: Vec<u64> = self.by_number.borrow().keys().copied().collect();
         for number in numbers {
             let entity = self.by_number.borrow().get(&number).cloned();
-            entity.into_iter().for_each(&visit);
+            entity.into_iter().for_each(&mut visit);
         }
     }
 }

@@ -307,6 +307,11 @@ impl Core {
         self.readers.get(&reader).map_or(0, Reader::waiting)
     }
 
+    /// The payload of the newest message that waits in a reader, which goes on waiting.
+    pub fn newest(&self, reader: EntityId) -> Option<&[u8]> {
+        self.readers.get(&reader)?.newest()
+    }
+
     /// How many messages a reader left out since its queue was full.
     pub fn dropped(&self, reader: EntityId) -> u64 {
         self.readers.get(&reader).map_or(0, |reader| reader.dropped)
@@ -329,6 +334,19 @@ impl Core {
                 .filter(|writer| fits(&writer.endpoint, &reader.endpoint))
                 .count();
             reader.writers() + here
+        })
+    }
+
+    /// Whether a participant elsewhere reads `writer`, writes what `reader` reads, and knows that reader: an answer will not be lost.
+    pub fn has_answerer(&self, writer: EntityId, reader: EntityId) -> bool {
+        let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader))
+        else {
+            return false;
+        };
+        self.peers.keys().any(|prefix| {
+            writer.has_reader_of(*prefix)
+                && reader.has_writer_of(*prefix)
+                && reader.is_known_to(*prefix)
         })
     }
 

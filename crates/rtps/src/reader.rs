@@ -89,6 +89,15 @@ impl Reader {
         self.writers.keys().any(|writer| writer.prefix == prefix)
     }
 
+    /// Whether writers of that participant know this reader: those that are reliable have said to it what they have.
+    pub(crate) fn is_known_to(&self, prefix: Prefix) -> bool {
+        let mut its = self
+            .writers
+            .iter()
+            .filter(|(writer, _)| writer.prefix == prefix);
+        its.all(|(_, proxy)| !proxy.is_reliable || proxy.next.is_some())
+    }
+
     pub(crate) fn add_writer(
         &mut self,
         writer: &Endpoint,
@@ -126,6 +135,10 @@ impl Reader {
         let sample = self.queue.pop_front()?;
         self.queued_bytes -= sample.payload.len();
         Some(sample)
+    }
+
+    pub(crate) fn newest(&self) -> Option<&[u8]> {
+        Some(&self.queue.back()?.payload)
     }
 
     pub(crate) fn waiting(&self) -> usize {

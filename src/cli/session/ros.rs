@@ -1,8 +1,10 @@
 //! `--ros-...`: how scripts take part in networks of ROS.
 
+use std::borrow::Cow;
 use std::net::Ipv4Addr;
 use std::path::{Path, PathBuf};
 
+use super::setup::seconds;
 use simulator::RosOptions;
 
 /// Options of ROS
@@ -23,6 +25,12 @@ pub(in crate::cli) struct RosArgs {
     /// Offer ROS 2's standard simulation interfaces (simulation_interfaces 2.1.0: states, steps, entities, worlds), and publish what --ros2-bridge does
     #[arg(long)]
     ros2: bool,
+    /// Topic of ROS 2 by which nodes answer each step: a step is over when all have answered, so that a run is the same each time; may be repeated
+    #[arg(long, value_name = "TOPIC", value_parser = topic)]
+    ros2_lockstep: Vec<String>,
+    /// Wait so long for an answer by --ros2-lockstep, seconds of the wall clock; then the simulation is stopped
+    #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
+    ros2_lockstep_timeout: f64,
     /// Prefixes of installed packages with interfaces of ROS 2
     #[arg(long, hide = true, env = "AMENT_PREFIX_PATH", value_delimiter = ':')]
     ament_prefix_path: Vec<PathBuf>,
@@ -38,6 +46,21 @@ pub(in crate::cli) struct RosArgs {
     /// Namespace of the nodes
     #[arg(long, hide = true, env = "ROS_NAMESPACE", default_value = "")]
     ros_namespace: String,
+}
+
+fn topic(name: &str) -> Result<String, String> {
+    let is_word = |word: &str| {
+        let mut letters = word.chars();
+        letters
+            .next()
+            .is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+            && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
+    };
+    let words = name.strip_prefix('/').unwrap_or(name);
+    let is_topic = words.split('/').all(is_word);
+    is_topic
+        .then(|| name.to_owned())
+        .ok_or_else(|| "the name of a topic is needed, such as /cmd_vel".to_owned())
 }
 
 /// The add-on of `--ros2` that offers the standard simulation interfaces.
@@ -57,11 +80,32 @@ function sysCall_sensing() bridge.publish() end
 ";
 
 impl RosArgs {
-    /// The add-ons that the options ask for: names and texts.
-    pub(in crate::cli) fn add_ons(&self) -> impl Iterator<Item = (&'static str, &'static [u8])> {
-        let bridge = (self.ros2 || self.ros2_bridge).then_some(("ros2Bridge", BRIDGE));
-        let interfaces = self.ros2.then_some(("ros2Interfaces", INTERFACES));
-        bridge.into_iter().chain(interfaces)
+    /// The add-ons that the options ask for: names and texts. Those that wait come after those that publish.
+    pub(in crate::cli) fn add_ons(
+        &self,
+    ) -> impl Iterator<Item = (&'static str, Cow<'static, [u8]>)> {
+        let bridge = (self.ros2 || self.ros2_bridge).then_some(("ros2Bridge", BRIDGE.into()));
+        let interfaces = self.ros2.then_some(("ros2Interfaces", INTERFACES.into()));
+        let lockstep = (!self.ros2_lockstep.is_empty()).then(|| self.lockstep());
+        bridge.into_iter().chain(interfaces).chain(lockstep)
+    }
+
+    fn lockstep(&self) -> (&'static str, Cow<'static, [u8]>) {
+        let topics: Vec<_> = self
+            .ros2_lockstep
+            .iter()
+            .map(|topic| format!("{topic:?}"))
+            .collect();
+        let (topics, timeout) = (topics.join(", "), self.ros2_lockstep_timeout);
+        let code = format!(
+            "lockstep, topics, timeout = require 'remote.ros2_lockstep', {{{topics}}}, {timeout:?}
+function sysCall_init() lockstep.begin() end
+function sysCall_beforeSimulation() lockstep.beforeStart() end
+function sysCall_actuation() lockstep.beforeStep(topics, timeout) end
+function sysCall_sensing() lockstep.afterStep(topics, timeout) end
+"
+        );
+        ("ros2Lockstep", code.into_bytes().into())
     }
 
     /// For a scene in this folder, beside which interfaces are searched too.

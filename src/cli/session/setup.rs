@@ -248,7 +248,7 @@ impl Setup {
             let _ = source.add(sim, ScriptKind::AddOn);
         }
         for (name, code) in self.ros.add_ons() {
-            let _ = sim.add_script(ScriptKind::AddOn, name, code);
+            let _ = sim.add_script(ScriptKind::AddOn, name, &code);
         }
         if let Some(code) = &self.starter {
             let _ = sim.add_script(ScriptKind::AddOn, "starter", code.as_bytes());

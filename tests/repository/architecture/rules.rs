@@ -405,6 +405,10 @@ pub const INPUTS: &[(&str, &str)] = &[
         "messages of ROS 2",
     ),
     (
+        "crates/modules-ros/src/sim_ros2/lockstep.rs",
+        "which nodes of ROS 2 have answered",
+    ),
+    (
         "crates/modules-ros/src/sim_ros2/node.rs",
         "whether there is a node of ROS 2",
     ),

@@ -15,6 +15,8 @@ use script::wall_clock;
 pub(super) struct Endpoint {
     pub(super) node: Rc<Running>,
     pub(super) entity: EntityId,
+    /// As DDS calls it.
+    pub(super) topic: String,
 }
 
 impl Drop for Endpoint {
@@ -30,6 +32,7 @@ impl Endpoint {
         Self {
             node: node.clone(),
             entity: entity.unwrap_or_default(),
+            topic: topic.to_owned(),
         }
     }
 
@@ -39,6 +42,7 @@ impl Endpoint {
         Self {
             node: node.clone(),
             entity: entity.unwrap_or_default(),
+            topic: topic.to_owned(),
         }
     }
 
@@ -58,6 +62,26 @@ impl Endpoint {
             .tape
             .input("how many messages of ROS 2 wait", count);
         count.unwrap_or_default()
+    }
+
+    /// Whether a message waits of which the newest `is_wanted`. Not on the tape.
+    pub(super) fn has_newest(&self, is_wanted: impl FnOnce(&[u8]) -> bool) -> bool {
+        let newest = |core: &mut Core| core.newest(self.entity).is_some_and(is_wanted);
+        self.node.core(newest).unwrap_or_default()
+    }
+
+    /// Whether one participant elsewhere reads what this one writes, and writes what `reader` reads. Not on the tape.
+    pub(super) fn has_partner(&self, reader: &Self) -> bool {
+        let (writer, reader) = (self.entity, reader.entity);
+        let has_partner = self.node.core(|core| core.has_partner(writer, reader));
+        has_partner.unwrap_or_default()
+    }
+
+    /// Whether a participant elsewhere will answer: it reads what this one writes, and what it writes reaches `reader`. Not on the tape.
+    pub(super) fn has_answerer(&self, reader: &Self) -> bool {
+        let (writer, reader) = (self.entity, reader.entity);
+        let has_answerer = self.node.core(|core| core.has_answerer(writer, reader));
+        has_answerer.unwrap_or_default()
     }
 
     pub(super) fn publish(&self, record: &Record) {

@@ -7,6 +7,7 @@ mod actions;
 mod endpoint;
 mod images;
 mod interfaces;
+mod lockstep;
 mod names;
 mod node;
 mod parameters;
@@ -45,4 +46,10 @@ pub static MODULE: Module = Module {
 pub static REMOTE: Module = Module {
     inner: &[services::ANSWERED_LATER],
     ..Module::new("remote.ros2")
+};
+
+/// The module `remote.ros2_lockstep`.
+pub static REMOTE_LOCKSTEP: Module = Module {
+    inner: &[lockstep::FUNCTIONS],
+    ..Module::new("remote.ros2_lockstep")
 };

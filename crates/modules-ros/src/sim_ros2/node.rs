@@ -22,7 +22,7 @@ use script::{Host, RosOptions};
 pub(super) struct Node {
     running: RefCell<Option<Rc<Running>>>,
     catalogue: RefCell<Option<Catalogue>>,
-    entities: Rc<Entities<Entity>>,
+    pub(super) entities: Rc<Entities<Entity>>,
     pub(super) parameters: RefCell<Parameters>,
     /// For transforms.
     pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,

@@ -79,15 +79,10 @@ impl Client {
     }
 
     pub(super) fn has_server(&self) -> bool {
-        let (writer, reader) = (self.requests.entity, self.replies.entity);
-        let node = &self.requests.node;
-        let has_partner = || {
-            let has_partner = node.core(|core| core.has_partner(writer, reader));
-            has_partner.unwrap_or_default()
-        };
-        let answer = node
-            .tape
-            .input("whether a service of ROS 2 is there", has_partner);
+        let tape = &self.requests.node.tape;
+        let answer = tape.input("whether a service of ROS 2 is there", || {
+            self.requests.has_partner(&self.replies)
+        });
         answer.unwrap_or_default()
     }
 
