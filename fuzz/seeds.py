@@ -8,7 +8,7 @@ Of unpacked_scene: the files of a model of tests/data, which is unpacked into fu
 Of mesh_* and gltf_asset: a square in each format.
 
 Of urdf, sdf and mjcf: the files in the tests. Of ros_message and ros2_message: the built-in types, with messages that fit some of them. Of rtps:
-how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of view_request: the requests in the tests.
+how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
 """
 
 import json
@@ -254,7 +254,17 @@ def view_request():
         write(f"view_request/{number}", request.replace('\\"', '"').encode())
 
 
-TARGETS = [scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request]
+def mcp_message():
+    methods = {
+        "initialize": {"protocolVersion": "2025-06-18"}, "ping": {}, "tools/list": {}, "tools/call": {"name": "echo", "arguments": {"a": [1]}},
+        "resources/list": {"cursor": "100"}, "resources/templates/list": {}, "resources/read": {"uri": "a://1"},
+    }
+    requests = [{"jsonrpc": "2.0", "id": number, "method": method, "params": params} for number, (method, params) in enumerate(methods.items())]
+    for number, message in enumerate([*requests, requests, {"jsonrpc": "2.0", "method": "notifications/initialized"}]):
+        write(f"mcp_message/{number}", json.dumps(message).encode())
+
+
+TARGETS = [scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request, mcp_message]
 for make in TARGETS:
     if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
         make()

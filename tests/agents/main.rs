@@ -9,6 +9,7 @@
     reason = "tests start programs and look at the environment"
 )]
 
+mod answers;
 mod client;
 mod cold;
 mod values;

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use format::scene_input::{InputFile, SceneInput};
+use format::scene_file::SceneFile;
+use format::scene_input::SceneInput;
 use mcp::Answer;
 use scene::Data;
 use simulator::{ScriptKind, Simulator};
@@ -79,7 +80,8 @@ enum Source {
     Nothing,
     /// Whether it is a file.
     Script(PathBuf, Vec<u8>, bool),
-    File(PathBuf, Box<InputFile>),
+    /// With what was not understood.
+    File(PathBuf, Box<SceneFile>, String),
 }
 
 impl Source {
@@ -88,31 +90,34 @@ impl Source {
         let input = input.map_err(|error| format!("{error}{}", next_step(&error)))?;
         Ok(match input {
             SceneInput::Script(code) => Self::Script(path.to_owned(), code, true),
-            SceneInput::File(file) => Self::File(path.to_owned(), file),
+            SceneInput::File(file) => {
+                let messages = file.messages().iter();
+                let messages = messages.map(|message| format!("{message}\n")).collect();
+                let scene = file
+                    .scene()
+                    .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+                Self::File(path.to_owned(), Box::new(scene), messages)
+            }
         })
     }
 
     fn name(&self) -> String {
         match self {
             Self::Nothing => "the default scene".into(),
-            Self::Script(path, ..) | Self::File(path, _) => path.display().to_string(),
+            Self::Script(path, ..) | Self::File(path, ..) => path.display().to_string(),
         }
     }
 
     fn path(&self) -> Option<PathBuf> {
         match self {
             Self::Nothing | Self::Script(_, _, false) => None,
-            Self::Script(path, ..) | Self::File(path, _) => Some(path.clone()),
+            Self::Script(path, ..) | Self::File(path, ..) => Some(path.clone()),
         }
     }
 
     fn messages(&self) -> String {
         match self {
-            Self::File(_, file) => file
-                .messages()
-                .iter()
-                .map(|message| format!("{message}\n"))
-                .collect(),
+            Self::File(.., messages) => messages.clone(),
             _ => String::new(),
         }
     }
@@ -139,7 +144,7 @@ impl Source {
     }
 
     fn is_scene_file(&self) -> bool {
-        matches!(self, Self::File(path, _) if !is_model(path))
+        matches!(self, Self::File(_, scene, _) if !scene.is_model())
     }
 
     /// Into a scene that is there.
@@ -163,12 +168,7 @@ impl Source {
                 let added = sim.add_script_of_file(ScriptKind::Customization, &name, &code, file);
                 added.map(drop).map_err(|error| error.to_string())
             }
-            Self::File(path, file) => {
-                let scene = file
-                    .scene()
-                    .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-                sim.load(scene).map_err(|error| error.to_string())
-            }
+            Self::File(_, scene, _) => sim.load(*scene).map_err(|error| error.to_string()),
         }
     }
 }
@@ -178,10 +178,7 @@ pub(super) fn scripts(agent: &Agent, path: &Path) -> Result<Vec<(String, String)
     let text = |code: &[u8]| String::from_utf8_lossy(code).into_owned();
     let name = path.display().to_string();
     match Source::of_file(agent, path)? {
-        Source::File(_, file) => {
-            let scene = file
-                .scene()
-                .map_err(|error| format!("cannot read {name}: {error}"))?;
+        Source::File(_, scene, _) => {
             let scripts = scene.scripts().into_iter();
             let in_lua = scripts.filter(|script| script.language == "lua");
             Ok(in_lua
@@ -191,13 +188,6 @@ pub(super) fn scripts(agent: &Agent, path: &Path) -> Result<Vec<(String, String)
         Source::Script(_, code, _) => Ok(vec![(name, text(&code))]),
         Source::Nothing => Ok(Vec::new()),
     }
-}
-
-/// Whether a file is no scene of its own.
-fn is_model(path: &Path) -> bool {
-    let name = path.to_string_lossy().to_lowercase();
-    let is_scene = name.ends_with(".ttt") || name.ends_with(".simscene.xml");
-    !is_scene && !path.is_dir()
 }
 
 fn save(agent: &mut Agent, arguments: Arguments<'_>) -> Result<Answer, String> {

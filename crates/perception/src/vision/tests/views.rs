@@ -171,6 +171,26 @@ fn looks_at(scene: &Scene, middle: [f64; 3], radius: f64) {
 }
 
 #[test]
+fn a_view_from_anywhere_looks_at_its_target() {
+    let scene = Studio::new().scene;
+    for (eye, target) in [
+        ([3.0, 0.0, 1.0], [0.0, 0.0, 1.0]),
+        ([1.0, 2.0, 3.0], [-1.0, 0.5, 0.0]),
+        // Where no direction is up.
+        ([0.0, 0.0, 2.0], [0.0, 0.0, 0.0]),
+        ([0.5, 0.5, -1.0], [0.5, 0.5, 40.0]),
+    ] {
+        let viewpoint = Viewpoint::looking(eye, target);
+        let shot = viewpoint.shot(&scene, [64, 32]).unwrap();
+        let wanted = Vector3::from(target) - Vector3::from(eye);
+        let ahead = shot.pose.rotation * Vector3::z();
+        assert!((ahead - wanted.normalize()).norm() < 1e-9, "{eye:?}");
+        assert_eq!(shot.pose.translation.vector, Vector3::from(eye));
+        assert!(shot.view.clipping[1] > wanted.norm(), "{eye:?}");
+    }
+}
+
+#[test]
 fn a_view_without_a_camera_shows_a_ball_around_all() {
     let mut studio = Studio::new();
     looks_at(&studio.scene, [0.0; 3], 1.0);

@@ -1,0 +1,182 @@
+//! What tools answer: errors with the next step, code that is checked, files.
+
+use serde_json::json;
+
+use crate::client::Client;
+
+/// What was wrong, where, and the next step.
+#[test]
+fn errors_say_what_to_do_next() {
+    let mut client = Client::start(&["scenes/inverted_pendulum.lua".into()]);
+    for (tool, arguments, said) in [
+        (
+            "step",
+            json!({"cuont": 3}),
+            "there is no argument cuont; did you mean count?",
+        ),
+        ("run_code", json!({}), "the argument code is missing"),
+        (
+            "run_code",
+            json!({"code": "local x = 1\nsim.getObjectPositio(x)"}),
+            ">    2 | sim.getObjectPositio(x)",
+        ),
+        (
+            "run_code",
+            json!({"code": "local x = 1\nsim.getObjectPositio(x)"}),
+            "did you mean getObjectPosition?",
+        ),
+        (
+            "run_code",
+            json!({"code": "\nlocal h = sim.getObject('/Nothing')\nreturn h"}),
+            ">    2 | local h = sim.getObject('/Nothing')",
+        ),
+        ("run_code", json!({"code": "for"}), "line 1: "),
+        (
+            "get_properties",
+            json!({"items": ["/Card.mass"]}),
+            "Did you mean /Rail/Slider/Cart?",
+        ),
+        (
+            "get_properties",
+            json!({"items": ["/Cart.masss"]}),
+            "Did you mean mass?",
+        ),
+        ("get_properties", json!({"items": ["/Cart"]}), "PATH.NAME"),
+        (
+            "set_properties",
+            json!({"values": {"/Cart.mass": 2, "/Cart.masss": 2}}),
+            "nothing was set",
+        ),
+        ("read_script", json!({"script": "/Cart"}), "is no script"),
+        (
+            "write_script",
+            json!({"script": "/Controller", "old": "xyz", "new": ""}),
+            "does not occur",
+        ),
+        (
+            "write_script",
+            json!({"script": "/Controller", "code": "function"}),
+            "The script was not changed.",
+        ),
+        (
+            "run_until",
+            json!({"until": {"colision": ["/a", "/b"]}}),
+            "did you mean collision?",
+        ),
+        (
+            "run_until",
+            json!({"until": {"collision": ["/Pole", "/Card"]}}),
+            "Did you mean /Rail/Slider/Cart?",
+        ),
+        (
+            "run_until",
+            json!({"watch": ["/Cart.masss"]}),
+            "Did you mean mass?",
+        ),
+        (
+            "picture",
+            json!({"camera": "/Cart"}),
+            "is neither a camera nor a vision sensor",
+        ),
+        ("restore", json!({"name": "x"}), "`snapshot` makes one"),
+        (
+            "load",
+            json!({"path": "/etc/hostname"}),
+            "--allow-read=/etc",
+        ),
+        ("save", json!({"path": "/etc/x.ttt"}), "--allow-write=/etc"),
+        ("run_tests", json!({"path": "/etc"}), "--allow-read"),
+        (
+            "api",
+            json!({"name": "sim.getObjectPositio"}),
+            "did you mean sim.getObjectPosition?",
+        ),
+        (
+            "simulation",
+            json!({"action": "halt"}),
+            "one of \"start\", \"pause\", \"stop\" is needed",
+        ),
+    ] {
+        let answer = client.call(tool, &arguments);
+        let text = answer["text"].as_str().expect("text");
+        assert!(
+            answer["isError"] == true && text.contains(said),
+            "{tool} {arguments}: {text}"
+        );
+    }
+    let mass = client.call("get_properties", &json!({"items": ["/Cart.mass"]}));
+    assert_eq!(mass["text"], "/Cart.mass = 1 kg\n");
+}
+
+#[test]
+fn code_is_checked_before_it_runs() {
+    let mut client = Client::start(&["scenes/inverted_pendulum.lua".into()]);
+    for (arguments, said) in [
+        (json!({}), "All 2 scripts are fine"),
+        (json!({"path": "scenes/inverted_pendulum.lua"}), "fine"),
+        (json!({"script": "/Controller"}), "fine"),
+        (json!({"code": "x = = 1"}), "unexpected symbol"),
+        (
+            json!({"code": "sim.getObjectPositio(1)"}),
+            "line 1: sim.getObjectPositio does not exist (did you mean getObjectPosition?)",
+        ),
+        (
+            json!({"code": "simGetObjectPosition(1, -1)"}),
+            "is an old name of sim.getObjectPosition",
+        ),
+        (
+            json!({"code": "function sysCall_actution() end"}),
+            "did you mean sysCall_actuation?",
+        ),
+    ] {
+        let answer = client.call("check_code", &arguments);
+        let text = answer["text"].as_str().expect("text");
+        assert!(
+            answer["isError"] == false && text.contains(said),
+            "{arguments}: {text}"
+        );
+    }
+}
+
+#[test]
+fn scenes_models_and_robots_come_from_files_and_go_into_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let urdf = std::fs::read("scenes/gripper.urdf").expect("the robot is there");
+    std::fs::write(at("gripper.urdf"), urdf).expect("the folder is ours");
+    let mujoco = "<mujoco><worldbody><body name='box'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody></mujoco>";
+    std::fs::write(at("box.xml"), mujoco).expect("the folder is ours");
+    let sdf = "<sdf version='1.9'><model name='ball'><link name='core'><collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>";
+    std::fs::write(at("ball.sdf"), sdf).expect("the folder is ours");
+    let allowed = format!("--allow-write={}", at(""));
+    let readable = format!("--allow-read={}", at(""));
+    let mut client = Client::start(&[allowed, readable]);
+    let mut done = |tool: &str, arguments: serde_json::Value| {
+        let answer = client.call(tool, &arguments);
+        assert_eq!(answer["isError"], false, "{tool} {arguments}: {answer}");
+        answer["text"].as_str().expect("text").to_owned()
+    };
+    done("load", json!({"path": at("gripper.urdf")}));
+    assert!(done("find_objects", json!({"type": "joint"})).contains("grip_right"));
+    done("load", json!({"path": at("box.xml"), "add": true}));
+    done("load", json!({"path": at("ball.sdf"), "add": true}));
+    let tree = done("scene", json!({}));
+    assert!(
+        tree.contains("grip_right") && tree.contains("box") && tree.contains("core"),
+        "{tree}"
+    );
+    done("save", json!({"path": at("all.ttt")}));
+    done("load", json!({}));
+    assert!(done("scene", json!({})).contains("Floor #"));
+    done("load", json!({"path": at("all.ttt")}));
+    let again = done("scene", json!({}));
+    assert_eq!(tree.lines().count(), again.lines().count(), "{tree}{again}");
+    let refused = client.call("load", &json!({"path": at("all.ttt"), "add": true}));
+    assert!(
+        refused["text"]
+            .as_str()
+            .expect("text")
+            .contains("cannot be added"),
+        "{refused}"
+    );
+}
