@@ -11,7 +11,7 @@
 
 mod answers;
 mod client;
-mod cold;
+mod misuse;
 mod values;
 
 use std::cell::RefCell;
