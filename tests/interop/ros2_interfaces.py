@@ -5,7 +5,7 @@ import pathlib
 import re
 import tempfile
 
-from ros2_types import ActionClient, Client, make, message, reader, samples, until
+from ros2_types import ActionClient, Client, make, message, nodes, reader, samples, until
 from simulator import Simulator
 
 STOPPED, PLAYING, PAUSED, QUITTING, NO_WORLD = range(5)
@@ -56,6 +56,7 @@ def filters(**fields):
 
 CALLS = {name: Client(re.sub(r"(?<=[a-z])([A-Z])", r"_\1", name).lower(), f"simulation_interfaces/srv/{name}") for name in ALL}
 STEPS = ActionClient("simulate_steps", "simulation_interfaces/action/SimulateSteps")
+NODES = nodes()
 CLOCK = reader("rt/clock", message("rosgraph_msgs/msg/Clock"))
 
 
@@ -101,6 +102,12 @@ def features():
     assert {0, 5, 10, 20, 24, 31, 33, 40, 50} <= set(got.features) and 42 not in got.features
     assert set(got.spawn_formats) == {"urdf", "sdf", "mjcf", "ttm"}
     assert "Swanilda" in got.custom_info
+
+
+def graph():
+    """The node with the readers and writers of services, of the action, /clock and /joint_states."""
+    readers, writers = until("the node", lambda: NODES().get("/sim_ros2_interface"))
+    assert (readers, writers) == (len(ALL) + 3, len(ALL) + 3 + 2 + 2), (readers, writers)
 
 
 def states():
@@ -280,6 +287,7 @@ def quits(simulator):
 with tempfile.TemporaryDirectory() as name, Simulator("tests/interop/ros2_interfaces_scene.lua", "--empty", "--ros2", "--no-remote-api") as simulator:
     folder = pathlib.Path(name)
     features()
+    graph()
     states()
     steps()
     entities()

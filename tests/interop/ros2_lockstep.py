@@ -9,7 +9,7 @@ import tempfile
 import threading
 import time
 
-from ros2_types import make, message, reader, samples, until, writer
+from ros2_types import announce, make, message, reader, samples, writer
 
 RUNS, SECONDS = 10, 2
 SCENE = pathlib.Path(__file__).parent / "ros2_lockstep_scene.lua"
@@ -18,6 +18,7 @@ TOPICS = "--ros2-lockstep", "/command", "--ros2-lockstep", "/trim"
 places = reader("rt/place", message("geometry_msgs/msg/PointStamped"))
 commands = writer("rt/command", message("geometry_msgs/msg/TwistStamped"))
 trims = writer("rt/trim", message("std_msgs/msg/Float64"))
+announced = announce("/lab/driver", [commands, trims])
 is_over = threading.Event()
 is_silent = threading.Event()
 
@@ -73,6 +74,11 @@ def runs_are_equal():
     assert float(results[0][0].split()[0]) > 0.9, results[0]
 
 
+def a_node_stands_for_all_it_publishes():
+    expected = result(run(*TOPICS))
+    assert result(run("--ros2-lockstep", "/lab/driver")) == expected
+
+
 def a_capture_needs_no_nodes():
     with tempfile.TemporaryDirectory() as folder:
         capture = f"{folder}/run.swc"
@@ -92,12 +98,13 @@ def silence_is_named():
     text = finished.stdout + finished.stderr
     assert finished.returncode != 0 and "no node publishes /nobody, or no script subscribes to it" in text, text
     finished = run("--ros2-lockstep", "a b")
-    assert finished.returncode == 2 and "the name of a topic is needed" in finished.stderr, finished.stderr
+    assert finished.returncode == 2 and "the name of a topic or a node is needed" in finished.stderr, finished.stderr
 
 
 thread = threading.Thread(target=node, daemon=True)
 thread.start()
 runs_are_equal()
+a_node_stands_for_all_it_publishes()
 a_capture_needs_no_nodes()
 silence_is_named()
 is_over.set()

@@ -23,9 +23,10 @@ from cyclonedds.topic import Topic  # noqa: E402
 from cyclonedds.util import duration  # noqa: E402
 
 DESCRIPTIONS = pathlib.Path(__file__).parents[2] / "crates/ros-interfaces/descriptions/ros2"
+LATCHED = Qos(Policy.Reliability.Reliable(duration(seconds=10)), Policy.History.KeepLast(1), Policy.Durability.TransientLocal)
 RELIABLE = Qos(Policy.Reliability.Reliable(duration(seconds=10)), Policy.History.KeepAll)
 PRIMITIVES = {"bool": bool, "string": str, **{f"{kind}{size}": getattr(types, f"{kind}{size}") for kind in ("int", "uint") for size in (8, 16, 32, 64)}}
-PRIMITIVES |= {"float32": types.float32, "float64": types.float64, "byte": types.uint8}
+PRIMITIVES |= {"char": types.uint8, "float32": types.float32, "float64": types.float64, "byte": types.uint8}
 DEFAULTS = {bool: False, str: ""}
 LIMIT = 20  # seconds for anything
 
@@ -47,7 +48,7 @@ def _read(package):
             _parts[name].append(fields)
         else:
             for field in line.strip().split("; "):
-                if "=" not in field:
+                if "=" not in field.split()[1]:
                     kind, short = field.split()[:2]
                     fields.append((short, kind))
 
@@ -57,7 +58,7 @@ def _fields(package, fields):
 
 
 def _type(package, kind):
-    base, array = re.fullmatch(r"([\w/]+)(?:\[(\d*)\])?", kind).groups()
+    base, array = re.fullmatch(r"([\w/]+)(?:<=\d+)?(?:\[(\d*)\])?", kind).groups()
     if base not in PRIMITIVES:
         owner, short = base.split("/") if "/" in base else (package, base)
         element = message(f"{owner}/msg/{short}")
@@ -136,6 +137,34 @@ def until(what, ask, limit=LIMIT):
 
 def samples(of):
     return [sample for sample in of.take(N=1000) if type(sample).__name__ != "InvalidSample"]
+
+
+def announce(name, writers):
+    """Says that this participant has a node of that full name with these writers, as rmw does. Returns what has to live as long."""
+    info = message("rmw_dds_common/msg/ParticipantEntitiesInfo")
+    gid, node = message("rmw_dds_common/msg/Gid"), message("rmw_dds_common/msg/NodeEntitiesInfo")
+
+    def identity(entity):
+        return gid(list(entity.guid.bytes))
+
+    namespace, _, short = name.rpartition("/")
+    said = writer("ros_discovery_info", info, LATCHED)
+    said.write(info(identity(PARTICIPANT), [node(namespace or "/", short, [], [identity(one) for one in writers])]))
+    return said
+
+
+def nodes():
+    """The nodes of all participants: full names, with how many readers and writers they have."""
+    listener = reader("ros_discovery_info", message("rmw_dds_common/msg/ParticipantEntitiesInfo"), LATCHED)
+    found = {}
+
+    def look():
+        for info in samples(listener):
+            for node in info.node_entities_info_seq:
+                found[node.node_namespace.rstrip("/") + "/" + node.node_name] = (len(node.reader_gid_seq), len(node.writer_gid_seq))
+        return found
+
+    return look
 
 
 class Client:

@@ -337,6 +337,28 @@ impl Core {
         })
     }
 
+    /// The identity of the participant.
+    pub fn participant(&self) -> Guid {
+        self.guid(EntityId::PARTICIPANT)
+    }
+
+    /// The identities of all readers and writers of the program but these.
+    pub fn identities(&self, hidden: &[EntityId]) -> [Vec<[u8; 16]>; 2] {
+        let is_shown = |entity: &&EntityId| !entity.is_builtin() && !hidden.contains(entity);
+        let bytes = |entity: &EntityId| self.guid(*entity).to_bytes();
+        [
+            self.readers.keys().filter(is_shown).map(bytes).collect(),
+            self.writers.keys().filter(is_shown).map(bytes).collect(),
+        ]
+    }
+
+    /// Whether one of these writers elsewhere writes what a reader reads.
+    pub fn reads_any(&self, reader: EntityId, writers: &[[u8; 16]]) -> bool {
+        let guids = || writers.iter().map(|bytes| Guid::from_bytes(*bytes));
+        let reader = self.readers.get(&reader);
+        reader.is_some_and(|reader| guids().any(|writer| reader.has_writer(writer)))
+    }
+
     /// Whether a participant elsewhere reads `writer`, writes what `reader` reads, and knows that reader: an answer will not be lost.
     pub fn has_answerer(&self, writer: EntityId, reader: EntityId) -> bool {
         let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader))

@@ -131,23 +131,38 @@ fn reliable_messages_arrive_in_order_whatever_is_lost() {
     );
 }
 
+/// Two, three or ten of them, each with a writer that all others read, and one that nobody reads.
 #[test]
 fn participants_with_nothing_to_say_are_quiet() {
-    let mut world = World::new(2, 0);
-    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
-    world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
-    // A writer of the other side that nobody reads: two of its own topics stay empty here, one there.
-    world.cores[1].create_writer("rt/b", TYPE, all(), &[]);
-    world.run(3000);
-    assert_eq!(world.cores[0].matched(writer), 1);
-    world.sent = 0;
-    world.run(6000);
-    // Each announces itself every two seconds, at three places.
-    assert!(world.sent <= 2 * 4 * 3, "{} datagrams", world.sent);
-    world.sent = 0;
-    world.write(0, writer, b"abcd");
-    world.run(10);
-    assert!((1..10).contains(&world.sent), "{} datagrams", world.sent);
+    for count in [2, 3, 10] {
+        let mut world = World::new(count, 0);
+        let writers: Vec<_> = (0..count)
+            .map(|index| {
+                let core = &mut world.cores[index];
+                core.create_reader("rt/a", TYPE, all(), &[]);
+                core.create_writer(&format!("rt/b{index}"), TYPE, all(), &[]);
+                core.create_writer("rt/a", TYPE, all(), &[])
+            })
+            .collect();
+        world.run(3000);
+        assert_eq!(world.cores[0].matched(writers[0]), count);
+        world.sent = 0;
+        world.run(6000);
+        // Each announces itself every two seconds, at every place and to the group.
+        assert!(
+            world.sent <= count * (count + 1) * 4,
+            "{} datagrams of {count}",
+            world.sent
+        );
+        world.sent = 0;
+        world.write(0, writers[0], b"abcd");
+        world.run(10);
+        assert!(
+            (1..6 * count).contains(&world.sent),
+            "{} datagrams of {count}",
+            world.sent
+        );
+    }
 }
 
 #[test]

@@ -25,8 +25,8 @@ pub(in crate::cli) struct RosArgs {
     /// Offer ROS 2's standard simulation interfaces (simulation_interfaces 2.1.0: states, steps, entities, worlds), and publish what --ros2-bridge does
     #[arg(long)]
     ros2: bool,
-    /// Topic of ROS 2 by which nodes answer each step: a step is over when all have answered, so that a run is the same each time; may be repeated
-    #[arg(long, value_name = "TOPIC", value_parser = topic)]
+    /// Topic by which a node of ROS 2 answers each step, or a node with all its topics: a step is over when all have answered, so that a run is the same each time; may be repeated
+    #[arg(long, value_name = "TOPIC_OR_NODE", value_parser = topic)]
     ros2_lockstep: Vec<String>,
     /// Wait so long for an answer by --ros2-lockstep, seconds of the wall clock; then the simulation is stopped
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
@@ -60,7 +60,7 @@ fn topic(name: &str) -> Result<String, String> {
     let is_topic = words.split('/').all(is_word);
     is_topic
         .then(|| name.to_owned())
-        .ok_or_else(|| "the name of a topic is needed, such as /cmd_vel".to_owned())
+        .ok_or_else(|| "the name of a topic or a node is needed, such as /cmd_vel".to_owned())
 }
 
 /// The add-on of `--ros2` that offers the standard simulation interfaces.

@@ -77,6 +77,18 @@ impl Endpoint {
         has_partner.unwrap_or_default()
     }
 
+    /// The next message that waits. Not on the tape.
+    pub(super) fn take_untaped(&self) -> Option<Vec<u8>> {
+        let sample = self.node.core(|core| core.take(self.entity)).flatten();
+        sample.map(|sample| sample.payload)
+    }
+
+    /// Whether one of these writers elsewhere writes what this one reads. Not on the tape.
+    pub(super) fn reads_any(&self, writers: &[[u8; 16]]) -> bool {
+        let reads = self.node.core(|core| core.reads_any(self.entity, writers));
+        reads.unwrap_or_default()
+    }
+
     /// Whether a participant elsewhere will answer: it reads what this one writes, and what it writes reaches `reader`. Not on the tape.
     pub(super) fn has_answerer(&self, reader: &Self) -> bool {
         let (writer, reader) = (self.entity, reader.entity);

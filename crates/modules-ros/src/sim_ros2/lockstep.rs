@@ -4,13 +4,12 @@
 //! without a header. It stays in the queue: callbacks run at the start of the next iteration, in the order in which subscriptions were created, whatever
 //! the order in which answers have come. So a run is the same each time.
 
-use std::rc::Rc;
 use std::time::Duration;
 
 use api_macro::api;
 use ros_interfaces::Element;
 
-use super::node::{Entity, Running, node, running};
+use super::node::{Entity, Node, Running, node, running};
 use super::topics::Subscription;
 use super::{ApiFn, Cx, Result, functions, names};
 
@@ -35,7 +34,7 @@ fn await_all(
     let is_late = |topic: &&String| {
         let (mut count, mut all_hold) = (0, true);
         node.entities.for_each(|entity| match entity {
-            Entity::Subscription(subscription) if is_of(&running, &subscription, topic) => {
+            Entity::Subscription(subscription) if is_of(&node, &running, &subscription, topic) => {
                 count += 1;
                 all_hold &= holds(&subscription);
             }
@@ -60,9 +59,18 @@ fn await_all(
     Ok(are_all_there.map_or_else(now, |()| Vec::new()))
 }
 
-fn is_of(running: &Rc<Running>, subscription: &Subscription, topic: &str) -> bool {
-    let resolved = running.resolve(topic).map(|full| names::topic(&full));
-    resolved.is_ok_and(|full| full == subscription.endpoint.topic)
+/// Whether a subscription is one of that topic, or of one that the node of that name publishes.
+fn is_of(node: &Node, running: &Running, subscription: &Subscription, name: &str) -> bool {
+    let Ok(full) = running.resolve(name) else {
+        return false;
+    };
+    let endpoint = &subscription.endpoint;
+    if names::topic(&full) == endpoint.topic {
+        return true;
+    }
+    let graph = node.graph.borrow();
+    let writers = graph.as_ref().map(|graph| graph.writers_of(&full));
+    writers.is_some_and(|writers| endpoint.reads_any(&writers))
 }
 
 /// Whether the newest message that waits answers a step of that time.

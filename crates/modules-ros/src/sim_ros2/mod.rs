@@ -5,6 +5,7 @@
 
 mod actions;
 mod endpoint;
+mod graph;
 mod images;
 mod interfaces;
 mod lockstep;

@@ -9,11 +9,12 @@ use rtps::{Core, Network, Participant, Qos};
 
 use super::actions::{ActionClient, ActionServer};
 use super::endpoint::Endpoint;
+use super::graph::{self, Graph};
 use super::names::{self, Place};
 use super::parameters::Parameters;
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
-use super::{ApiError, Cx, Result};
+use super::{ApiError, Cx, Result, interfaces};
 use crate::ros_entities::Entities;
 use script::{Host, RosOptions};
 
@@ -26,6 +27,7 @@ pub(super) struct Node {
     pub(super) parameters: RefCell<Parameters>,
     /// For transforms.
     pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,
+    pub(super) graph: RefCell<Option<Rc<Graph>>>,
 }
 
 /// The node in its domain.
@@ -66,6 +68,10 @@ impl Node {
 
     /// Calls the callbacks for what has arrived: one after the other in the order of creation. What arrives in the meantime waits.
     pub(super) fn spin(&self) {
+        let graph = self.graph.borrow().clone();
+        if let Some(graph) = graph {
+            graph.say();
+        }
         self.entities.for_each(|entity| match entity {
             Entity::Subscription(subscription) => subscription.spin(),
             Entity::Service(service) => service.spin(),
@@ -177,6 +183,8 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
         place: Place::new(&options.namespace, &name),
     });
     *node.running.borrow_mut() = Some(running.clone());
+    let layout = interfaces::message(cx, graph::TYPE)?;
+    *node.graph.borrow_mut() = Some(Rc::new(Graph::new(&running, layout)));
     Ok(running)
 }
 
