@@ -24,6 +24,10 @@ URDF = (
 SDF = f'<?xml version="1.0"?><sdf version="1.7"><world name="w">{{}}</world></sdf>'
 
 
+def snake_case(name):
+    return re.sub(r"(?<=[a-z])([A-Z])", r"_\1", name).lower()
+
+
 def of(name):
     return message(f"simulation_interfaces/msg/{name}")
 
@@ -54,7 +58,8 @@ def filters(**fields):
     return make(of("EntityFilters"), **fields)
 
 
-CALLS = {name: Client(re.sub(r"(?<=[a-z])([A-Z])", r"_\1", name).lower(), f"simulation_interfaces/srv/{name}") for name in ALL}
+CALLS = {name: Client(snake_case(name), f"simulation_interfaces/srv/{name}") for name in ALL}
+PARAMETERS = "GetParameters GetParameterTypes SetParameters SetParametersAtomically DescribeParameters ListParameters".split()
 STEPS = ActionClient("simulate_steps", "simulation_interfaces/action/SimulateSteps")
 NODES = nodes()
 CLOCK = reader("rt/clock", message("rosgraph_msgs/msg/Clock"))
@@ -105,9 +110,37 @@ def features():
 
 
 def graph():
-    """The node with the readers and writers of services, of the action, /clock and /joint_states."""
+    """The node with the readers and writers of services, with those of parameters, of the action, /clock and /joint_states."""
     readers, writers = until("the node", lambda: NODES().get("/sim_ros2_interface"))
-    assert (readers, writers) == (len(ALL) + 3, len(ALL) + 3 + 2 + 2), (readers, writers)
+    assert (readers, writers) == (len(ALL) + 3 + len(PARAMETERS), len(ALL) + 3 + len(PARAMETERS) + 2 + 2), (readers, writers)
+
+
+def parameters():
+    """Other nodes list, read and set what scripts have set."""
+    of_node = {name: Client(f"sim_ros2_interface/{snake_case(name)}", f"rcl_interfaces/srv/{name}") for name in PARAMETERS}
+    value, parameter = message("rcl_interfaces/msg/ParameterValue"), message("rcl_interfaces/msg/Parameter")
+
+    def with_value(name, kind, **fields):
+        return make(parameter, name=name, value=make(value, type=kind, **fields))
+
+    listed = of_node["ListParameters"]().result
+    assert (sorted(listed.names), listed.prefixes) == (["arm.gain", "arm.name", "debug"], ["arm"]), listed
+    assert of_node["ListParameters"](prefixes=["arm"], depth=1).result.names == ["arm.gain", "arm.name"]
+    assert of_node["ListParameters"](depth=1).result.names == ["debug"]
+    got = of_node["GetParameters"](names=["arm.gain", "arm.name", "debug", "none"]).values
+    assert [(one.type, one.double_value, one.string_value, one.bool_value) for one in got] == [
+        (3, 2.5, "", False), (4, 0, "left", False), (1, 0, "", True), (0, 0, "", False)
+    ], got  # fmt: skip
+    assert list(of_node["GetParameterTypes"](names=["debug", "arm.gain"]).types) == [1, 3]
+    described = of_node["DescribeParameters"](names=["arm.name"]).descriptors
+    assert [(one.name, one.type) for one in described] == [("arm.name", 4)]
+    wanted = [with_value("arm.gain", 3, double_value=4.0), with_value("arm.gain", 2, integer_value=4), with_value("new", 1), with_value("debug", 9)]
+    results = of_node["SetParameters"](parameters=wanted).results
+    assert [one.successful for one in results] == [True, False, False, False], results
+    assert "another type" in results[1].reason and "not set by a script" in results[2].reason and "needs" in results[3].reason, results
+    result = of_node["SetParametersAtomically"](parameters=[with_value("arm.gain", 3, double_value=8.0), with_value("new", 1)]).result
+    assert not result.successful
+    assert of_node["GetParameters"](names=["arm.gain"]).values[0].double_value == 4.0, "all or none"
 
 
 def states():
@@ -288,6 +321,7 @@ with tempfile.TemporaryDirectory() as name, Simulator("tests/interop/ros2_interf
     folder = pathlib.Path(name)
     features()
     graph()
+    parameters()
     states()
     steps()
     entities()

@@ -10,6 +10,10 @@ local function shape(kind, name, size, position, isStatic)
 end
 
 function sysCall_init()
+    local simROS2 = require 'simROS2'
+    simROS2.setParamDouble('arm.gain', 2.5)
+    simROS2.setParamString('arm.name', 'left')
+    simROS2.setParamBool('debug', true)
     if sim.getObject('/Ball', { noError = true }) ~= -1 then return end
     shape(sim.primitiveshape_cuboid, 'Floor', { 20, 20, 0.1 }, { 0, 0, -0.05 }, true)
     shape(sim.primitiveshape_cuboid, 'Wall', { 0.1, 1, 0.5 }, { 2, 0, 0.25 }, true)

@@ -58,7 +58,7 @@ def _fields(package, fields):
 
 
 def _type(package, kind):
-    base, array = re.fullmatch(r"([\w/]+)(?:<=\d+)?(?:\[(\d*)\])?", kind).groups()
+    base, array = re.fullmatch(r"([\w/]+)(?:<=\d+)?(?:\[((?:<=)?\d*)\])?", kind).groups()
     if base not in PRIMITIVES:
         owner, short = base.split("/") if "/" in base else (package, base)
         element = message(f"{owner}/msg/{short}")
@@ -66,6 +66,8 @@ def _type(package, kind):
         element = PRIMITIVES[base]
     if array is None:
         return element
+    if array.startswith("<="):
+        return types.sequence[element, int(array[2:])]
     return types.array[element, int(array)] if array else types.sequence[element]
 
 

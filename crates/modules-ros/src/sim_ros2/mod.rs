@@ -11,6 +11,7 @@ mod interfaces;
 mod lockstep;
 mod names;
 mod node;
+mod parameter_services;
 mod parameters;
 mod qos;
 mod services;

@@ -11,6 +11,7 @@ use super::actions::{ActionClient, ActionServer};
 use super::endpoint::Endpoint;
 use super::graph::{self, Graph};
 use super::names::{self, Place};
+use super::parameter_services::ParameterServices;
 use super::parameters::Parameters;
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
@@ -28,6 +29,7 @@ pub(super) struct Node {
     /// For transforms.
     pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,
     pub(super) graph: RefCell<Option<Rc<Graph>>>,
+    parameter_services: RefCell<Option<Rc<ParameterServices>>>,
 }
 
 /// The node in its domain.
@@ -71,6 +73,10 @@ impl Node {
         let graph = self.graph.borrow().clone();
         if let Some(graph) = graph {
             graph.say();
+        }
+        let services = self.parameter_services.borrow().clone();
+        if let Some(services) = services {
+            services.spin(&self.parameters);
         }
         self.entities.for_each(|entity| match entity {
             Entity::Subscription(subscription) => subscription.spin(),
@@ -185,6 +191,8 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     *node.running.borrow_mut() = Some(running.clone());
     let layout = interfaces::message(cx, graph::TYPE)?;
     *node.graph.borrow_mut() = Some(Rc::new(Graph::new(&running, layout)));
+    let services = ParameterServices::new(cx, &running)?;
+    *node.parameter_services.borrow_mut() = Some(Rc::new(services));
     Ok(running)
 }
 

@@ -374,7 +374,7 @@ fn respond(cx: &mut Cx, service_handle: String, number: i64, response: Table) ->
 }
 
 /// Fields with an empty text are left out, which means the same: simROS2 refuses them, as the original does.
-fn without_empty_texts(data: Data) -> Data {
+pub(super) fn without_empty_texts(data: Data) -> Data {
     match data {
         Data::Map(entries) => {
             let is_kept = |value: &Data| !matches!(value, Data::Text(text) if text.is_empty());
