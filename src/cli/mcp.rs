@@ -60,6 +60,16 @@ pub(super) struct Args {
     permissions: PermissionArgs,
 }
 
+/// Permissions are restricted here, without being asked.
+pub(super) fn under_own_heading(argument: clap::Arg) -> clap::Arg {
+    if argument.get_help_heading() == Some(HEADING) {
+        argument
+            .help_heading("Permissions of scripts and tools (default: reading the scene's folder)")
+    } else {
+        argument
+    }
+}
+
 /// Serves until the client goes, or until ctrl-c and SIGTERM.
 pub(super) fn serve(args: &Args) -> Outcome {
     // What native code writes to standard output must not come between the messages.

@@ -66,6 +66,7 @@ enum Command {
     Replay(replay::Args),
     View(view::Args),
     Serve(serve::Args),
+    #[command(mut_args(mcp::under_own_heading))]
     Mcp(mcp::Args),
     Debug(debug::Args),
     Test(test::Args),

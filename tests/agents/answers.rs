@@ -180,3 +180,48 @@ fn scenes_models_and_robots_come_from_files_and_go_into_them() {
         "{refused}"
     );
 }
+
+/// Clients and their users know tools by their descriptions.
+#[test]
+fn tools_and_their_arguments_are_described() {
+    let mut client = Client::start(&[]);
+    let page = std::fs::read_to_string("docs/AGENTS.md").expect("the page is there");
+    let list = client.request("tools/list", &json!({}));
+    let tools = list["result"]["tools"].as_array().expect("tools");
+    assert!(tools.len() > 20);
+    for tool in tools {
+        let name = tool["name"].as_str().expect("a name");
+        assert!(
+            page.contains(&format!("`{name}`")),
+            "docs/AGENTS.md: {name}"
+        );
+        assert!(
+            tool["description"]
+                .as_str()
+                .is_some_and(|text| text.ends_with('.')),
+            "{name}"
+        );
+        assert_eq!(tool["inputSchema"]["type"], "object", "{name}");
+        let arguments = tool["inputSchema"]["properties"]
+            .as_object()
+            .expect("arguments");
+        for (argument, schema) in arguments {
+            assert!(
+                schema["description"]
+                    .as_str()
+                    .is_some_and(|text| !text.is_empty()),
+                "{name} {argument}"
+            );
+            assert!(
+                schema["type"].is_string() || schema["type"].is_array(),
+                "{name} {argument}"
+            );
+        }
+        for required in tool["inputSchema"]["required"].as_array().expect("a list") {
+            assert!(
+                arguments.contains_key(required.as_str().expect("a name")),
+                "{name}"
+            );
+        }
+    }
+}

@@ -62,7 +62,7 @@ fn tools() -> Vec<mcp::Tool> {
                 ),
                 (
                     "type",
-                    json!({"type": "string", "enum": ["shape", "joint", "dummy", "camera", "light", "graph", "script", "vision sensor", "proximity sensor", "force sensor", "octree", "point cloud"]}),
+                    json!({"type": "string", "enum": ["shape", "joint", "dummy", "camera", "light", "graph", "script", "vision sensor", "proximity sensor", "force sensor", "octree", "point cloud"], "description": "Only objects of this type"}),
                 ),
                 ("root", root),
             ],

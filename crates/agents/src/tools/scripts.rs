@@ -1,5 +1,6 @@
 //! Scripts of the scene: reading and writing them.
 
+use format::script_file::language;
 use mcp::Answer;
 use scene::Data;
 use serde_json::{Value, json};
@@ -128,7 +129,7 @@ fn change(agent: &mut Agent, script: &Value, arguments: Arguments<'_>) -> Result
         (None, Some(old), Some(new)) => replaced(&path, &before, old, new)?,
         _ => return Err("give either `code`, or both `old` and `new`".into()),
     };
-    check_syntax(agent, &code).map_err(refused)?;
+    check_lua(agent, &code).map_err(refused)?;
     agent.helper("write", &[data(script), Data::text(&code)])?;
     finished(agent, &path, "was changed", &code)
 }
@@ -145,6 +146,18 @@ fn replaced(path: &str, code: &str, old: &str, new: &str) -> Result<String, Stri
     }
 }
 
+/// The syntax of a script, unless it is in Python: then its first line says so.
+fn check_lua(agent: &mut Agent, code: &str) -> Result<(), String> {
+    if is_python(code) {
+        return Ok(());
+    }
+    check_syntax(agent, code)
+}
+
+fn is_python(code: &str) -> bool {
+    language(None, code.as_bytes()) == "python"
+}
+
 fn refused(error: String) -> String {
     format!("{error}\nThe script was not changed.")
 }
@@ -153,7 +166,7 @@ fn add(agent: &mut Agent, arguments: Arguments<'_>) -> Result<Answer, String> {
     let code = arguments
         .text("code")
         .ok_or("give `script` to change a script, or `code` to add one")?;
-    check_syntax(agent, code).map_err(refused)?;
+    check_lua(agent, code).map_err(refused)?;
     let kind = arguments.text("type").unwrap_or("simulation");
     let alias = arguments.text("alias").map_or(Data::Nil, Data::text);
     let parent = reference(arguments.get("parent"));
@@ -163,7 +176,11 @@ fn add(agent: &mut Agent, arguments: Arguments<'_>) -> Result<Answer, String> {
 
 /// The answer, with what is suspicious in the code and what happened when it began.
 fn finished(agent: &mut Agent, path: &str, done: &str, code: &str) -> Result<Answer, String> {
-    let suspicious = report(agent, path, code)?;
+    let suspicious = if is_python(code) {
+        String::new()
+    } else {
+        report(agent, path, code)?
+    };
     let output = happened(agent);
     Ok(Answer::text(format!("{path} {done}."))
         .and_text(&suspicious)
