@@ -225,3 +225,56 @@ fn tools_and_their_arguments_are_described() {
         }
     }
 }
+
+/// Objects that share an alias are told apart by an index and by their handles.
+#[test]
+fn objects_are_named_by_paths_and_by_handles() {
+    let mut client = Client::start(&["--empty".into()]);
+    let code = "for i = 1, 2 do local d = sim.createDummy(0.1) sim.setObjectAlias(d, 'Twin') sim.setObjectPosition(d, {i, 0, 0}) end";
+    client.call("run_code", &json!({"code": code}));
+    let tree = client.call("scene", &json!({}));
+    let tree = tree["text"].as_str().expect("text");
+    assert!(
+        tree.contains("Twin[0] #") && tree.contains("Twin[1] #"),
+        "{tree}"
+    );
+    let found = client.call("find_objects", &json!({"pattern": "twin"}));
+    for (at, twin) in found["values"]["objects"]
+        .as_array()
+        .expect("objects")
+        .iter()
+        .enumerate()
+    {
+        let by_path = format!("{}.position[1]", twin["path"].as_str().expect("a path"));
+        let by_handle = format!("#{}.position[1]", twin["handle"]);
+        let values = client.call("get_properties", &json!({"items": [by_path, by_handle]}));
+        let values = &values["values"]["values"];
+        assert_eq!(values[&by_path], values[&by_handle]);
+        assert_eq!(values[&by_path], (at + 1) as f64);
+    }
+    let watched = client.call("step", &json!({"watch": [format!("#{}.position[1]", 999)]}));
+    assert!(
+        watched["text"]
+            .as_str()
+            .expect("text")
+            .contains("no object with handle 999"),
+        "{watched}"
+    );
+    assert!(
+        client.call("scene", &json!({}))["text"]
+            .as_str()
+            .expect("text")
+            .starts_with("Simulation stopped")
+    );
+}
+
+#[test]
+fn what_is_made_when_the_simulation_starts_can_be_watched() {
+    let mut client = Client::start(&[]);
+    let code = "sim = require 'sim' function sysCall_init() sim.setObjectAlias(sim.createDummy(0.1), 'Late') end";
+    client.call("write_script", &json!({"code": code}));
+    let arguments = json!({"watch": ["/Late.position[1]"], "until": {"distance": {"objects": ["/Late", "/Floor"], "above": -1}}, "time": 1});
+    let answer = client.call("run_until", &arguments);
+    assert_eq!(answer["isError"], false, "{answer}");
+    assert_eq!(answer["values"]["reached"], true, "{answer}");
+}

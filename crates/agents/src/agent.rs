@@ -20,9 +20,9 @@ use crate::values::{text_field, without_place};
 
 /// For the models of clients that connect.
 const INSTRUCTIONS: &str = "A headless simulator of robots (CoppeliaSim's Lua API, module `sim`). Begin with `scene`. Objects are named by paths \
-such as /Robot/Joint, quantities by PATH.PROPERTY (/Cuboid.mass, /Ball.position[3]) or by Lua expressions. Time stands still between calls: \
-`step` and `run_until` advance it, and return samples of what they `watch`. Lengths are in metres, angles in radians, times in seconds, \
-forces in newtons. Before trying something, `snapshot`; to compare ideas, `compare_variants`. `api` explains functions of `sim`.";
+such as /Robot/Joint, or by handles such as #12; quantities by PATH.PROPERTY (/Cuboid.mass, /Ball.position[3], #12.mass) or by Lua expressions. \
+Time stands still between calls: `step` and `run_until` advance it, and return samples of what they `watch`. Lengths are in metres, angles in \
+radians, times in seconds, forces in newtons. Before trying something, `snapshot`; to compare ideas, `compare_variants`. `api` explains functions of `sim`.";
 
 /// How simulators of an agent are made.
 #[derive(Clone)]

@@ -9,9 +9,10 @@ local M = {}
 
 local OWN_HANDLES = {app = sim.handle_app, scene = sim.handle_scene}
 
---- Handle of an object by its handle, its path, or its alias.
+--- Handle of an object by its handle (12 or `#12`), its path, or its alias.
 function M.find(ref)
     if OWN_HANDLES[ref] then return OWN_HANDLES[ref] end
+    ref = math.tointeger(tostring(ref):match('^#(%d+)$')) or ref
     if math.type(ref) == 'integer' then
         if not sim.isHandle(ref) then error('there is no object with handle ' .. ref, 0) end
         return ref
@@ -64,7 +65,7 @@ local function write(handle, name, value)
     placed[name].write(handle, value)
 end
 
--- `/a[1]/b.position[3]`, `scene.gravity`: handle, name of the property, index. Aliases may contain dots.
+-- `/a[1]/b.position[3]`, `#12.mass`, `scene.gravity`: handle, name of the property, index. Aliases may contain dots.
 local function split(text)
     local first = text:match('^[^/]*') == '' and (text:match('^.*/()') or 1) or 1
     local at = text:find('.', first, true)
@@ -82,7 +83,7 @@ local function split(text)
 end
 
 local function isProperty(text)
-    return text:sub(1, 1) == '/' or text:match('^scene%.') or text:match('^app%.')
+    return text:sub(1, 1) == '/' or text:match('^#%d+%.') or text:match('^scene%.') or text:match('^app%.')
 end
 
 local function propertyReader(text)

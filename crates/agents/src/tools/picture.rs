@@ -133,6 +133,7 @@ fn distances(picture: &Picture, [near, far]: [f64; 2]) -> Vec<Option<f64>> {
 /// An object that can be seen.
 struct Label {
     path: String,
+    handle: u32,
     /// Its middle, pixels from the upper left corner.
     at: [usize; 2],
     /// Left, top, right and bottom.
@@ -144,7 +145,7 @@ struct Label {
 
 impl Label {
     fn json(&self) -> Value {
-        json!({"path": self.path, "at": self.at, "box": self.bounds, "pixels": self.pixels, "distance": self.distance})
+        json!({"path": self.path, "handle": self.handle, "at": self.at, "box": self.bounds, "pixels": self.pixels, "distance": self.distance})
     }
 }
 
@@ -156,8 +157,9 @@ fn text(size: [u32; 2], labels: &[Label]) -> String {
     for label in labels {
         let [left, top, right, bottom] = label.bounds;
         out += &format!(
-            "{}: ({}, {}), {left}..{right} x {top}..{bottom}, {} m\n",
+            "{} #{}: ({}, {}), {left}..{right} x {top}..{bottom}, {} m\n",
             label.path,
+            label.handle,
             label.at[0],
             label.at[1],
             values::number(label.distance)
@@ -205,6 +207,7 @@ impl Label {
     fn new(agent: &Agent, id: u32, x: usize, y: usize) -> Self {
         Self {
             path: agent.sim.scene().short_path(Handle(id)).unwrap_or_default(),
+            handle: id,
             at: [x, y],
             bounds: [x, y, x, y],
             pixels: 0,

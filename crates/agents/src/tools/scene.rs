@@ -21,7 +21,6 @@ const MAX_SHOWN: usize = 150;
 pub(crate) struct Row {
     handle: i64,
     parent: i64,
-    alias: String,
     kind: String,
     pub path: String,
     text: String,
@@ -103,7 +102,6 @@ fn row(data: &Data) -> Row {
     Row {
         handle: int("handle"),
         parent: int("parent"),
-        alias: words("alias"),
         kind: words("kind"),
         path: words("path"),
         text: words("text"),
@@ -112,6 +110,11 @@ fn row(data: &Data) -> Row {
 }
 
 impl Row {
+    /// The end of its path: the alias, with an index where siblings share it.
+    fn name(&self) -> &str {
+        self.path.rsplit('/').next().unwrap_or(&self.path)
+    }
+
     fn line(&self, name: &str) -> String {
         let place = if self.position.is_empty() {
             String::new()
@@ -174,7 +177,7 @@ pub(crate) fn tree_lines(rows: &[Row], depth: usize) -> Vec<String> {
     let roots = below.get(&-1).into_iter().flatten().rev();
     let mut pending: Vec<(usize, &Row)> = roots.map(|row| (0, *row)).collect();
     while let Some((level, row)) = pending.pop() {
-        lines.push(format!("{}{}", "  ".repeat(level), row.line(&row.alias)));
+        lines.push(format!("{}{}", "  ".repeat(level), row.line(row.name())));
         if level < depth {
             let children = below.get(&row.handle).into_iter().flatten().rev();
             pending.extend(children.map(|child| (level + 1, *child)));
@@ -294,7 +297,6 @@ mod tests {
         Row {
             handle,
             parent,
-            alias: alias.into(),
             kind: "dummy".into(),
             path: format!("/{alias}"),
             text: String::new(),

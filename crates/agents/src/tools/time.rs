@@ -220,18 +220,12 @@ pub(super) fn watch(agent: &mut Agent, watched: &[String]) -> Result<(), String>
 /// # Errors
 /// When a quantity or a condition cannot be read.
 pub(super) fn advance(agent: &mut Agent, plan: &Plan) -> Result<Outcome, String> {
-    let conditions = plan.until.as_ref().map_or(Data::Map(Vec::new()), data);
-    if let Data::Text(error) = agent.helper("expect", &[conditions])? {
-        let error = String::from_utf8_lossy(&error).into_owned();
-        return Err(format!("`until` {}", explained(agent, "", &error)));
+    let errors = agent.sim.errors();
+    let has_stepped = start(agent, plan)?;
+    let mut run = Advance::begin(agent, plan, errors);
+    if has_stepped {
+        (run.steps, run.begun) = (1, 0.0);
     }
-    if agent.sim.state() == SimulationState::Stopped {
-        agent.sim.start();
-    } else if agent.sim.state() == SimulationState::Paused {
-        agent.sim.play();
-    }
-    watch(agent, &plan.watch)?;
-    let mut run = Advance::begin(agent, plan);
     run.sample(agent)?;
     let (reason, is_reached) = run.go(agent)?;
     Ok(Outcome {
@@ -240,6 +234,48 @@ pub(super) fn advance(agent: &mut Agent, plan: &Plan) -> Result<Outcome, String>
         reason,
         is_reached,
     })
+}
+
+/// Chooses what is looked for, and what is sampled.
+fn prepare(agent: &mut Agent, plan: &Plan) -> Result<(), String> {
+    let conditions = plan.until.as_ref().map_or(Data::Map(Vec::new()), data);
+    if let Data::Text(error) = agent.helper("expect", &[conditions])? {
+        let error = String::from_utf8_lossy(&error).into_owned();
+        return Err(format!("`until` {}", explained(agent, "", &error)));
+    }
+    watch(agent, &plan.watch)
+}
+
+/// Starts or resumes the simulation. What is watched may be made in its first step; if it cannot be read then, nothing has
+/// happened. Whether that step was made.
+fn start(agent: &mut Agent, plan: &Plan) -> Result<bool, String> {
+    if agent.sim.state() != SimulationState::Stopped {
+        if agent.sim.state() == SimulationState::Paused {
+            agent.sim.play();
+        }
+        return prepare(agent, plan).map(|()| false);
+    }
+    if prepare(agent, plan).is_ok() {
+        agent.sim.start();
+        return Ok(false);
+    }
+    let before = agent.sim.snapshot();
+    agent.sim.step(1);
+    let Err(error) = prepare(agent, plan) else {
+        return Ok(true);
+    };
+    match before {
+        Ok(before) => {
+            agent
+                .sim
+                .restore(&before)
+                .map_err(|error| error.to_string())?;
+            agent.lines.take();
+        }
+        // Something is open that a snapshot does not reach.
+        Err(_) => agent.sim.stop(),
+    }
+    Err(error)
 }
 
 /// A run that is under way.
@@ -253,8 +289,8 @@ struct Advance<'a> {
 }
 
 impl<'a> Advance<'a> {
-    fn begin(agent: &mut Agent, plan: &'a Plan) -> Self {
-        let is_property = |name: &str| name.starts_with('/') || name.starts_with("scene.");
+    fn begin(agent: &mut Agent, plan: &'a Plan, errors: u64) -> Self {
+        let is_property = |name: &str| name.starts_with(['/', '#']) || name.starts_with("scene.");
         let mut named = |name: &String| {
             let unit = if is_property(name) {
                 unit_of(agent, name)
@@ -268,7 +304,7 @@ impl<'a> Advance<'a> {
             samples: Samples::of(watched),
             plan,
             begun: agent.sim.time(),
-            errors: agent.sim.errors(),
+            errors,
             steps: 0,
             next_sample: agent.sim.time(),
         }
