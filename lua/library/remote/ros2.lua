@@ -9,11 +9,11 @@ by a client is held before its next step, so that neither a step nor a tick of t
 local _, native = ...
 local sim = require('sim')
 local simROS2 = require('simROS2')
-local results = require('remote.ros2_results')
-local entities = require('remote.ros2_entities')
-local spawning = require('remote.ros2_spawning')
-local worlds = require('remote.ros2_worlds')
-local initial = require('remote.ros2_initial_state')
+local results = require('remote.ros2.results')
+local entities = require('remote.ros2.entities')
+local spawning = require('remote.ros2.spawning')
+local worlds = require('remote.ros2.worlds')
+local initial = require('remote.ros2.initial_state')
 
 local STOPPED <const>, PLAYING <const>, PAUSED <const>, QUITTING <const>, NO_WORLD <const> = 0, 1, 2, 3, 4
 local NAMES <const> = {[0] = 'stopped', 'playing', 'paused', 'quitting', 'no world', 'loading a world'}

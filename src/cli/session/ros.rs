@@ -98,7 +98,7 @@ impl RosArgs {
             .collect();
         let (topics, timeout) = (topics.join(", "), self.ros2_lockstep_timeout);
         let code = format!(
-            "lockstep, topics, timeout = require 'remote.ros2_lockstep', {{{topics}}}, {timeout:?}
+            "lockstep, topics, timeout = require 'remote.ros2.lockstep', {{{topics}}}, {timeout:?}
 function sysCall_init() lockstep.begin() end
 function sysCall_beforeSimulation() lockstep.beforeStart() end
 function sysCall_actuation() lockstep.beforeStep(topics, timeout) end

@@ -107,7 +107,7 @@ fn stamp_of(payload: &[u8]) -> Option<f64> {
 /// @param stamp time of the step, seconds
 /// @param timeout seconds
 /// @return late topics without an answer
-#[api("remote.ros2_lockstep.awaitAnswers")]
+#[api("remote.ros2.lockstep.awaitAnswers")]
 fn await_answers(
     cx: &mut Cx,
     topics: Vec<String>,
@@ -124,7 +124,7 @@ fn await_answers(
 /// @param topics names
 /// @param timeout seconds
 /// @return missing topics without one
-#[api("remote.ros2_lockstep.awaitAnswerers")]
+#[api("remote.ros2.lockstep.awaitAnswerers")]
 fn await_answerers(cx: &mut Cx, topics: Vec<String>, timeout: f64) -> Result<Vec<String>> {
     let node = node(cx);
     await_all(cx, &topics, timeout, |subscription| {

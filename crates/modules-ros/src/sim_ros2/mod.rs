@@ -50,8 +50,8 @@ pub static REMOTE: Module = Module {
     ..Module::new("remote.ros2")
 };
 
-/// The module `remote.ros2_lockstep`.
+/// The module `remote.ros2.lockstep`.
 pub static REMOTE_LOCKSTEP: Module = Module {
     inner: &[lockstep::FUNCTIONS],
-    ..Module::new("remote.ros2_lockstep")
+    ..Module::new("remote.ros2.lockstep")
 };

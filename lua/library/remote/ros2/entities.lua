@@ -5,7 +5,7 @@ objects. Named poses are dummies without a parent and children. Internal.
 
 local sim = require('sim')
 local simROS2 = require('simROS2')
-local results = require('remote.ros2_results')
+local results = require('remote.ros2.results')
 
 local M = {}
 

@@ -4,8 +4,8 @@ Spawning by the standard simulation interfaces of ROS 2: robots and models of fi
 
 local sim = require('sim')
 local lfs = require('lfs')
-local results = require('remote.ros2_results')
-local entities = require('remote.ros2_entities')
+local results = require('remote.ros2.results')
+local entities = require('remote.ros2.entities')
 
 local M = {FORMATS = {'urdf', 'sdf', 'mjcf', 'ttm'}}
 

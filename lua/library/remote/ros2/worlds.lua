@@ -3,9 +3,9 @@ Worlds of the standard simulation interfaces of ROS 2: scenes, and worlds of SDF
 ]]
 
 local sim = require('sim')
-local results = require('remote.ros2_results')
-local entities = require('remote.ros2_entities')
-local spawning = require('remote.ros2_spawning')
+local results = require('remote.ros2.results')
+local entities = require('remote.ros2.entities')
+local spawning = require('remote.ros2.spawning')
 
 local M = {}
 
