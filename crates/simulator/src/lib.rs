@@ -4,27 +4,17 @@ mod builder;
 mod c_host;
 mod caller;
 pub mod hash_file;
-#[cfg(test)]
-mod journal_tests;
-#[cfg(test)]
-mod language_tests;
 mod memory;
 mod native_script;
-#[cfg(test)]
-mod native_tests;
 mod picture;
 mod playback;
 mod prepared;
 mod run;
 mod scene;
-#[cfg(test)]
-mod seed_tests;
 mod servers;
 #[cfg(test)]
-mod state_hash_tests;
+mod tests;
 mod ui;
-#[cfg(test)]
-mod usual_main_tests;
 mod viewing;
 
 use std::cell::Ref;
@@ -467,34 +457,5 @@ impl Drop for Simulator {
         sim.unload_plugins();
         sim.scripts.close_all();
         sim.save_app_storage();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_is_about_to_pause_ends() {
-        for steps in 0..6 {
-            let mut sim = Simulator::new(Options::default());
-            sim.step(2);
-            sim.pause();
-            (0..steps).for_each(|_| sim.iterate());
-            sim.stop();
-            assert_eq!(sim.state(), SimulationState::Stopped);
-        }
-    }
-
-    #[test]
-    fn a_simulator_goes_with_all_its_states() {
-        let mut sim = Simulator::new(Options::default());
-        let code = b"function sysCall_init() self = 1 end";
-        let script = sim
-            .add_script(ScriptKind::Customization, "script", code)
-            .expect("the script loads");
-        let gone = Rc::downgrade(&sim.found(script.0).expect("it is there"));
-        drop(sim);
-        assert!(gone.upgrade().is_none());
     }
 }
