@@ -1,9 +1,17 @@
 //! Clients and servers of the Model Context Protocol: the files `agents_*.py`.
 
-use std::io::{BufRead, BufReader};
+#[path = "../agents/tasks.rs"]
+mod tasks;
+#[path = "../agents/values.rs"]
+mod values;
+
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
+use serde_json::{Value, json};
+use tasks::{Attempt, Call, files};
+use test_support::parallel;
 use test_support::process::run_bounded;
 
 use crate::server::{Server, folder, python, run};
@@ -28,10 +36,10 @@ fn the_official_client_by_standard_input_and_output() {
     client(python, &["stdio", PROGRAM]);
 }
 
-/// `swanilda mcp --http`, which ends with the test.
-struct HttpServer(Child);
+/// A program that ends with the test.
+struct Ending(Child);
 
-impl Drop for HttpServer {
+impl Drop for Ending {
     fn drop(&mut self) {
         let _ = self.0.kill();
         let _ = self.0.wait();
@@ -46,7 +54,7 @@ fn the_official_client_by_http() {
         .args(["mcp", "--http", "0"])
         .stdin(Stdio::null())
         .stderr(Stdio::piped());
-    let mut server = HttpServer(command.spawn().expect("the server starts"));
+    let mut server = Ending(command.spawn().expect("the server starts"));
     let said = server.0.stderr.take().expect("standard error is piped");
     let mut said = BufReader::new(said)
         .lines()
@@ -71,4 +79,44 @@ fn a_server_of_others_for_coppeliasim() {
     let Some(python) = python() else { return };
     let server = Server::start();
     run(python, "agents_other.py", &server, &[]);
+}
+
+/// Calls tools by the official client.
+fn bridge(python: &Path, arguments: &[String]) -> Call {
+    let mut command = Command::new(python);
+    command
+        .arg(folder().join("agents_bridge.py"))
+        .arg(PROGRAM)
+        .args(arguments);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.spawn().expect("the client starts");
+    let mut input = child.stdin.take().expect("it is piped");
+    let mut answers = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+    let mut client = Ending(child);
+    Box::new(move |tool, arguments| {
+        let call = json!({"tool": tool, "arguments": arguments});
+        input
+            .write_all(format!("{call}\n").as_bytes())
+            .expect("the client reads");
+        let answer = answers.next().map(|line| line.expect("the client writes"));
+        let answer = answer.unwrap_or_else(|| panic!("{:?}", client.0.try_wait()));
+        serde_json::from_str::<Value>(&answer).expect("an answer is JSON")
+    })
+}
+
+/// All tasks of `tests/agents`, by the client of others.
+#[test]
+fn the_official_client_solves_every_task() {
+    let Some(python) = python() else { return };
+    let solved = parallel::map(&files(), |file| {
+        let attempt = Attempt::begin(file, |arguments| bridge(python, arguments))?;
+        let answer = attempt.solve()?;
+        attempt.check(answer)?.map_or(Ok(()), Err)
+    });
+    let failed: Vec<(_, Result<(), String>)> = files()
+        .into_iter()
+        .zip(solved)
+        .filter(|(_, outcome)| outcome.is_err())
+        .collect();
+    assert!(failed.is_empty(), "{failed:#?}");
 }
