@@ -110,6 +110,7 @@ fn a_failure_is_shrunk_kept_and_tried_first() {
 
 const FALL: &str = "
 t.property('it falls slowly', function(g)
+    t.run_for(1)
     local ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.1, 0.1, 0.1})
     sim.setObjectPosition(ball, {0, 0, g.float(1, 5)})
     sim.setBoolProperty(ball, 'dynamic', true)
@@ -145,8 +146,23 @@ fn a_failing_case_is_replayed_from_its_capture() {
         "The first case that failed",
         "Robustness over time",
         "least robustness",
+        ">its last 1 s</a>",
     ] {
         assert!(page.contains(part), "the report has no '{part}'");
+    }
+    // Links lead to files beside the report.
+    let links: Vec<_> = page
+        .split("href=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split(['"', '#']).next())
+        .collect();
+    let files: Vec<_> = links
+        .iter()
+        .filter(|link| link.ends_with(".html") || link.ends_with(".swc"))
+        .collect();
+    assert!(files.len() >= 3, "{links:?}");
+    for file in files {
+        assert!(folder.path().join(file).exists(), "there is no {file}");
     }
 }
 

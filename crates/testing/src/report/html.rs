@@ -124,7 +124,7 @@ fn test(outcome: &Outcome, folder: &Path) -> String {
         outcome
             .recording
             .as_deref()
-            .map_or_else(String::new, |page| recording(page, folder)),
+            .map_or_else(String::new, |page| recording(page, folder, outcome.time)),
         outcome
             .capture
             .as_deref()
@@ -183,13 +183,20 @@ fn facts(outcome: &Outcome) -> String {
     format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
 }
 
-/// A link to the page that plays a failed test.
-fn recording(page: &Path, folder: &Path) -> String {
+/// Seconds before the end of a failed test from which its recording may be played.
+const BEFORE_END: f64 = 1.0;
+
+/// Links to the page that plays a failed test: from its beginning, and from shortly before it has failed, at that time.
+fn recording(page: &Path, folder: &Path, time: f64) -> String {
     let address = address_below(folder, page);
-    format!(
-        "<p class=\"recording\"><a href=\"{}\">Play the recording</a></p>\n",
-        Quoted(&address)
-    )
+    let address = Quoted(&address);
+    let late = if time > BEFORE_END {
+        let from = time - BEFORE_END;
+        format!(" or <a href=\"{address}#t={from:.3}\">its last {BEFORE_END} s</a>")
+    } else {
+        String::new()
+    };
+    format!("<p class=\"recording\"><a href=\"{address}\">Play the recording</a>{late}</p>\n")
 }
 
 /// A link to the file from which a failed test can be run again.
@@ -205,8 +212,11 @@ fn captured(file: &Path, folder: &Path) -> String {
 
 /// The address of a file in a page that lies in `folder`.
 fn address_below(folder: &Path, file: &Path) -> String {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let (folder, file) = (absolute(folder), absolute(file));
+    // The folder of `report.html` is empty, which is no path.
+    let absolute = |path: &Path| std::path::absolute(Path::new(".").join(path));
+    let (Ok(folder), Ok(file)) = (absolute(folder), absolute(file)) else {
+        return file.to_string_lossy().into_owned();
+    };
     let common = folder
         .components()
         .zip(file.components())

@@ -4,6 +4,12 @@ import { localRows } from './local_rows.js';
 
 const NEED_SIMULATOR = 'This is a recording: the simulator is not there.';
 
+/** The time in seconds with which a link begins the recording: `run.html#t=3.2`. */
+function timeOfLink() {
+  const found = /^#t=([\d.]+)$/.exec(globalThis.location?.hash ?? '');
+  return found ? Number(found[1]) : undefined;
+}
+
 export class ReplaySource {
   /** @param {import('./store.js').Store} store @param {{index: any, chunk: function, blob: function?}} recording */
   constructor(store, recording) {
@@ -25,7 +31,7 @@ export class ReplaySource {
 
   async start() {
     this.store.setConnection('open');
-    await this.seek(this.start_time);
+    await this.seek(timeOfLink() ?? this.start_time);
     this._readAhead();
   }
 
