@@ -25,7 +25,7 @@ fn tools() -> Vec<mcp::Tool> {
     vec![tool(
         "run_tests",
         "Run tests",
-        "Runs tests as `swanilda test` does (busted style: describe, it, assert; test.load, test.runFor, ...), each in a simulator of its own, and shows the failures with their lines.",
+        "Runs tests as `swanilda test` does (busted style: describe, it, assert; t = require 'swanilda.test' with t.load, t.run_for, t.script, ...), each in a simulator of its own, and shows the failures with their lines.",
         &[
             (
                 "path",
