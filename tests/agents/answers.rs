@@ -278,3 +278,23 @@ fn what_is_made_when_the_simulation_starts_can_be_watched() {
     assert_eq!(answer["isError"], false, "{answer}");
     assert_eq!(answer["values"]["reached"], true, "{answer}");
 }
+
+/// Scripts in Python are not read as Lua. Without permission to start programs they do not run.
+#[test]
+fn scripts_in_python_are_kept_as_they_are() {
+    let mut client = Client::start(&[]);
+    let code = "#python\ndef sysCall_init():\n    sim = require('sim')\n";
+    let added = client.call("write_script", &json!({"code": code, "alias": "Snake"}));
+    assert_eq!(added["text"], "/Snake was added.", "{added}");
+    let text = client.call("read_script", &json!({"script": "/Snake"}));
+    assert!(
+        text["text"]
+            .as_str()
+            .expect("text")
+            .contains("def sysCall_init():"),
+        "{text}"
+    );
+    let edit = json!({"script": "/Snake", "old": "    sim = require('sim')", "new": "    pass"});
+    let changed = client.call("write_script", &edit);
+    assert_eq!(changed["text"], "/Snake was changed.", "{changed}");
+}

@@ -55,7 +55,7 @@ fn call(agent: &mut Agent, tool: &str, arguments: Arguments<'_>) -> Result<Answe
     );
     let texts = match given {
         (Some(code), None, None) => vec![(NAME.to_owned(), code.to_owned())],
-        (None, Some(script), None) => vec![super::scripts::source(agent, script)?],
+        (None, Some(script), None) => vec![super::scripts::source_in_lua(agent, script)?],
         (None, None, Some(path)) => super::files::scripts(agent, Path::new(path))?,
         (None, None, None) => super::scripts::all(agent)?,
         _ => return Err("give `code`, `script` or `path`, not several of them".into()),

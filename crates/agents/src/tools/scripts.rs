@@ -73,20 +73,43 @@ fn call(agent: &mut Agent, tool: &str, arguments: Arguments<'_>) -> Result<Answe
     }
 }
 
+/// A script of the scene.
+struct Found {
+    path: String,
+    language: String,
+    code: String,
+}
+
 /// Path and text of a script.
 pub(crate) fn source(agent: &mut Agent, script: &Value) -> Result<(String, String), String> {
-    let handle = agent.helper("find", &[data(script)])?;
-    let Data::Int(handle) = handle else {
+    found(agent, script).map(|found| (found.path, found.code))
+}
+
+/// The same of one in Lua.
+pub(super) fn source_in_lua(agent: &mut Agent, script: &Value) -> Result<(String, String), String> {
+    let found = found(agent, script)?;
+    if found.language == "lua" {
+        return Ok((found.path, found.code));
+    }
+    Err(format!(
+        "{} is in {}: only Lua is checked here",
+        found.path, found.language
+    ))
+}
+
+fn found(agent: &mut Agent, script: &Value) -> Result<Found, String> {
+    let Data::Int(handle) = agent.helper("find", &[data(script)])? else {
         return Err("a script is named by its path or its handle".into());
     };
-    let (_, _, code) = agent.sim.script_text(handle).map_err(|_| {
+    let (_, language, code) = agent.sim.script_text(handle).map_err(|_| {
         format!("{script} is no script: find_objects with type \"script\" lists them")
     })?;
     let path = agent.helper("path", &[Data::Int(handle)])?;
-    Ok((
-        crate::values::short(&path),
-        String::from_utf8_lossy(&code).into_owned(),
-    ))
+    Ok(Found {
+        path: crate::values::short(&path),
+        language,
+        code: String::from_utf8_lossy(&code).into_owned(),
+    })
 }
 
 /// Path and text of all scripts of the scene in Lua.
@@ -119,7 +142,11 @@ fn numbered(path: &str, code: &str, arguments: Arguments<'_>) -> String {
 }
 
 fn change(agent: &mut Agent, script: &Value, arguments: Arguments<'_>) -> Result<Answer, String> {
-    let (path, before) = source(agent, script)?;
+    let Found {
+        path,
+        language,
+        code: before,
+    } = found(agent, script)?;
     let code = match (
         arguments.text("code"),
         arguments.text("old"),
@@ -129,9 +156,12 @@ fn change(agent: &mut Agent, script: &Value, arguments: Arguments<'_>) -> Result
         (None, Some(old), Some(new)) => replaced(&path, &before, old, new)?,
         _ => return Err("give either `code`, or both `old` and `new`".into()),
     };
-    check_lua(agent, &code).map_err(refused)?;
+    let is_lua = language == "lua" && !is_python(&code);
+    if is_lua {
+        check_syntax(agent, &code).map_err(refused)?;
+    }
     agent.helper("write", &[data(script), Data::text(&code)])?;
-    finished(agent, &path, "was changed", &code)
+    finished(agent, &path, "was changed", is_lua.then_some(code.as_str()))
 }
 
 fn replaced(path: &str, code: &str, old: &str, new: &str) -> Result<String, String> {
@@ -146,14 +176,7 @@ fn replaced(path: &str, code: &str, old: &str, new: &str) -> Result<String, Stri
     }
 }
 
-/// The syntax of a script, unless it is in Python: then its first line says so.
-fn check_lua(agent: &mut Agent, code: &str) -> Result<(), String> {
-    if is_python(code) {
-        return Ok(());
-    }
-    check_syntax(agent, code)
-}
-
+/// Whether the first line says so.
 fn is_python(code: &str) -> bool {
     language(None, code.as_bytes()) == "python"
 }
@@ -166,20 +189,28 @@ fn add(agent: &mut Agent, arguments: Arguments<'_>) -> Result<Answer, String> {
     let code = arguments
         .text("code")
         .ok_or("give `script` to change a script, or `code` to add one")?;
-    check_lua(agent, code).map_err(refused)?;
+    let is_lua = !is_python(code);
+    if is_lua {
+        check_syntax(agent, code).map_err(refused)?;
+    }
     let kind = arguments.text("type").unwrap_or("simulation");
     let alias = arguments.text("alias").map_or(Data::Nil, Data::text);
     let parent = reference(arguments.get("parent"));
     let path = agent.helper("add", &[Data::text(kind), Data::text(code), alias, parent])?;
-    finished(agent, &crate::values::short(&path), "was added", code)
+    let path = crate::values::short(&path);
+    finished(agent, &path, "was added", is_lua.then_some(code))
 }
 
-/// The answer, with what is suspicious in the code and what happened when it began.
-fn finished(agent: &mut Agent, path: &str, done: &str, code: &str) -> Result<Answer, String> {
-    let suspicious = if is_python(code) {
-        String::new()
-    } else {
-        report(agent, path, code)?
+/// The answer, with what is suspicious in Lua code and what happened when it began.
+fn finished(
+    agent: &mut Agent,
+    path: &str,
+    done: &str,
+    code: Option<&str>,
+) -> Result<Answer, String> {
+    let suspicious = match code {
+        Some(code) => report(agent, path, code)?,
+        None => String::new(),
     };
     let output = happened(agent);
     Ok(Answer::text(format!("{path} {done}."))
