@@ -14,6 +14,7 @@ mod name;
 mod number;
 pub mod parse;
 pub mod ros1;
+mod type_hash;
 mod types;
 mod value;
 
@@ -21,6 +22,7 @@ pub use catalogue::Catalogue;
 pub use error::{DecodeError, InterfaceError, ValueError};
 pub use name::{InterfaceKind, TypeName};
 pub use number::{ByteOrder, Number, NumberType, Numbers};
+pub use type_hash::type_hash;
 pub use types::{Constant, Element, Field, FieldType, Interface, Layout, Shape, Structure};
 pub use value::{Array, Duration, Record, Time, Value};
 

@@ -28,7 +28,8 @@ impl Drop for Endpoint {
 impl Endpoint {
     pub(super) fn writer(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node.core(|core| core.create_writer(topic, &type_name, qos, &[]));
+        let entity =
+            node.core(|core| core.create_writer(topic, &type_name, qos, &user_data(layout)));
         Self {
             node: node.clone(),
             entity: entity.unwrap_or_default(),
@@ -38,7 +39,8 @@ impl Endpoint {
 
     pub(super) fn reader(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node.core(|core| core.create_reader(topic, &type_name, qos, &[]));
+        let entity =
+            node.core(|core| core.create_reader(topic, &type_name, qos, &user_data(layout)));
         Self {
             node: node.clone(),
             entity: entity.unwrap_or_default(),
@@ -149,6 +151,11 @@ impl Endpoint {
         let bytes = guid.ok().and_then(|bytes| bytes.try_into().ok());
         bytes.map(Guid::from_bytes).unwrap_or_default()
     }
+}
+
+/// What nodes of Iron and later say of their readers and writers.
+fn user_data(layout: &Layout) -> Vec<u8> {
+    format!("typehash={};", ros_interfaces::type_hash(layout)).into_bytes()
 }
 
 /// A message that has arrived.
