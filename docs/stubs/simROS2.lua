@@ -223,7 +223,7 @@ function simROS2.imageTransportShutdownSubscription(subscriptionHandle) end
 ---@param name string `pkg/msg/Name`
 function simROS2.importInterface(name) end
 
---- Adds a line to the log.
+--- Adds a line to the log, and publishes it at `/rosout` once there is a node.
 ---@param verbosity integer sim.verbosity_*
 ---@param msg string the line
 function simROS2.log(verbosity, msg) end

@@ -49,11 +49,21 @@ function simROS2.importInterface(name)
     _G[package][kind][short] = interface
 end
 
---- Adds a line to the log.
+local DEBUG <const>, INFO <const>, WARNING <const>, ERROR <const> = 10, 20, 30, 40 -- levels of rcl_interfaces/msg/Log
+local LEVELS <const> = {
+    [sim.verbosity_errors] = ERROR, [sim.verbosity_scripterrors] = ERROR,
+    [sim.verbosity_warnings] = WARNING, [sim.verbosity_scriptwarnings] = WARNING,
+    [sim.verbosity_infos] = INFO, [sim.verbosity_scriptinfos] = INFO, [sim.verbosity_loadinfos] = INFO,
+}
+
+--- Adds a line to the log, and publishes it at `/rosout` once there is a node.
 -- @api simROS2.log(int verbosity, string msg)
 -- @param verbosity sim.verbosity_*
 -- @param msg the line
-function simROS2.log(verbosity, msg) sim.addLog(verbosity, msg) end
+function simROS2.log(verbosity, msg)
+    sim.addLog(verbosity, msg)
+    simROS2._publishLog(LEVELS[verbosity] or DEBUG, msg)
+end
 
 -- Names of earlier versions say what they are called now, and do nothing else, as in the original.
 local RENAMED <const> = {

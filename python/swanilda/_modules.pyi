@@ -8456,7 +8456,7 @@ class _simROS2:
         name: `pkg/msg/Name`
         """
     def log(self, verbosity: int, msg: str, /) -> None:
-        """Adds a line to the log.
+        """Adds a line to the log, and publishes it at `/rosout` once there is a node.
         verbosity: sim.verbosity_*
         msg: the line
         """

@@ -5,7 +5,7 @@ import pathlib
 import re
 import tempfile
 
-from ros2_types import ActionClient, Client, make, message, nodes, reader, samples, until
+from ros2_types import LATCHED, ActionClient, Client, make, message, nodes, reader, samples, until
 from simulator import Simulator
 
 STOPPED, PLAYING, PAUSED, QUITTING, NO_WORLD = range(5)
@@ -62,6 +62,7 @@ CALLS = {name: Client(snake_case(name), f"simulation_interfaces/srv/{name}") for
 PARAMETERS = "GetParameters GetParameterTypes SetParameters SetParametersAtomically DescribeParameters ListParameters".split()
 STEPS = ActionClient("simulate_steps", "simulation_interfaces/action/SimulateSteps")
 NODES = nodes()
+LOG = reader("rt/rosout", message("rcl_interfaces/msg/Log"), LATCHED)
 CLOCK = reader("rt/clock", message("rosgraph_msgs/msg/Clock"))
 
 
@@ -110,9 +111,14 @@ def features():
 
 
 def graph():
-    """The node with the readers and writers of services, with those of parameters, of the action, /clock and /joint_states."""
+    """The node with the readers and writers of services, with those of parameters, of the action, /clock, /joint_states and /rosout."""
     readers, writers = until("the node", lambda: NODES().get("/sim_ros2_interface"))
-    assert (readers, writers) == (len(ALL) + 3 + len(PARAMETERS), len(ALL) + 3 + len(PARAMETERS) + 2 + 2), (readers, writers)
+    assert (readers, writers) == (len(ALL) + 3 + len(PARAMETERS), len(ALL) + 3 + len(PARAMETERS) + 2 + 3), (readers, writers)
+
+
+def log():
+    line = until("a line of the log", lambda: samples(LOG))[0]
+    assert (line.level, line.name, line.msg) == (30, "sim_ros2_interface", "the arm is there"), line
 
 
 def parameters():
@@ -321,6 +327,7 @@ with tempfile.TemporaryDirectory() as name, Simulator("tests/interop/ros2_interf
     folder = pathlib.Path(name)
     features()
     graph()
+    log()
     parameters()
     states()
     steps()

@@ -14,6 +14,7 @@ function sysCall_init()
     simROS2.setParamDouble('arm.gain', 2.5)
     simROS2.setParamString('arm.name', 'left')
     simROS2.setParamBool('debug', true)
+    simROS2.log(sim.verbosity_scriptwarnings, 'the arm is there')
     if sim.getObject('/Ball', { noError = true }) ~= -1 then return end
     shape(sim.primitiveshape_cuboid, 'Floor', { 20, 20, 0.1 }, { 0, 0, -0.05 }, true)
     shape(sim.primitiveshape_cuboid, 'Wall', { 0.1, 1, 0.5 }, { 2, 0, 0.25 }, true)

@@ -14,6 +14,7 @@ mod node;
 mod parameter_services;
 mod parameters;
 mod qos;
+mod rosout;
 mod services;
 mod times;
 mod topics;
@@ -35,6 +36,7 @@ pub static MODULE: Module = Module {
         ("Interfaces", interfaces::FUNCTIONS),
         ("Node", times::FUNCTIONS),
     ],
+    inner: &[rosout::FUNCTIONS],
     constants: include_str!("constants.tsv"),
     hooks: Hooks {
         start_of_iteration: Some(node::start_of_iteration),

@@ -13,6 +13,7 @@ use super::graph::{self, Graph};
 use super::names::{self, Place};
 use super::parameter_services::ParameterServices;
 use super::parameters::Parameters;
+use super::rosout::{self, RosOut};
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
 use super::{ApiError, Cx, Result, interfaces};
@@ -30,6 +31,7 @@ pub(super) struct Node {
     pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,
     pub(super) graph: RefCell<Option<Rc<Graph>>>,
     parameter_services: RefCell<Option<Rc<ParameterServices>>>,
+    pub(super) rosout: RefCell<Option<Rc<RosOut>>>,
 }
 
 /// The node in its domain.
@@ -191,6 +193,8 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     *node.running.borrow_mut() = Some(running.clone());
     let layout = interfaces::message(cx, graph::TYPE)?;
     *node.graph.borrow_mut() = Some(Rc::new(Graph::new(&running, layout)));
+    let layout = interfaces::message(cx, rosout::TYPE)?;
+    *node.rosout.borrow_mut() = Some(Rc::new(RosOut::new(&running, layout)));
     let services = ParameterServices::new(cx, &running)?;
     *node.parameter_services.borrow_mut() = Some(Rc::new(services));
     Ok(running)
