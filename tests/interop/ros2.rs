@@ -21,3 +21,10 @@ fn simulation_interfaces_with_cyclone_dds() {
 fn lock_step_with_cyclone_dds() {
     check("ros2_lockstep.py");
 }
+
+/// Fifty topics, peers that come late and go, a simulator that is started again.
+#[test]
+#[cfg(target_os = "linux")]
+fn fifty_topics_with_cyclone_dds() {
+    check("ros2_crowd.py");
+}

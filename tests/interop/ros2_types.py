@@ -7,7 +7,7 @@ import re
 import sys
 import time
 
-DOMAIN = 100 + os.getpid() % 100
+DOMAIN = int(os.environ.get("DOMAIN", 100 + os.getpid() % 100))
 INTERFACE = '<NetworkInterface name="lo" multicast="true"/>'
 os.environ["CYCLONEDDS_URI"] = (
     f"<CycloneDDS><Domain><General><Interfaces>{INTERFACE}</Interfaces></General></Domain></CycloneDDS>"
