@@ -89,7 +89,7 @@ with fault("vanish"):
     assert is_silent(a)
     c = Peer("c")
     send(c, "c")
-    assert reply(c) == ["c"], "who comes later is heard"
+    assert reply(c) == ["c"], "who comes later is served"
 assert noted() == "c"
 send(b, "b")
 assert reply(b) == ["cb"], "afterwards all are"

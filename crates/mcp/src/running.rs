@@ -38,7 +38,7 @@ impl Running {
     }
 
     /// Notices a cancellation among messages of the client `from`, as soon as they are there.
-    pub(crate) fn hear(&self, from: &str, messages: &[Result<Message, Fault>]) {
+    pub(crate) fn handle_cancellations(&self, from: &str, messages: &[Result<Message, Fault>]) {
         for message in messages.iter().flatten() {
             if let Message::Notification { method, params } = message
                 && method == "notifications/cancelled"
@@ -110,10 +110,10 @@ mod tests {
         let stop = Arc::<AtomicBool>::default();
         let running = Running::new(Arc::clone(&stop));
         assert!(running.begin("", &messages(CALL)));
-        running.hear("", &cancel("8"));
-        running.hear("another", &cancel("7"));
+        running.handle_cancellations("", &cancel("8"));
+        running.handle_cancellations("another", &cancel("7"));
         assert!(!stop.load(Ordering::Relaxed));
-        running.hear("", &cancel("7"));
+        running.handle_cancellations("", &cancel("7"));
         assert!(stop.load(Ordering::Relaxed));
         assert!(!running.end());
     }
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_call_that_was_cancelled_before_its_turn_does_not_begin() {
         let running = Running::default();
-        running.hear("", &cancel("7"));
+        running.handle_cancellations("", &cancel("7"));
         assert!(!running.begin("", &messages(CALL)));
         assert!(running.end());
         assert!(running.begin("", &messages(CALL)), "ids may come again");

@@ -52,7 +52,7 @@ pub struct Tool {
     pub description: String,
     /// A JSON schema of an object.
     pub arguments: Value,
-    /// Whether it only looks.
+    /// Whether it changes nothing.
     pub reads_only: bool,
 }
 

@@ -27,10 +27,10 @@ pub fn serve(
     running: &Running,
 ) -> Result<()> {
     let (sender, lines) = sync_channel(QUEUE);
-    let hears = running.clone();
+    let reading = running.clone();
     std::thread::Builder::new()
         .name("messages".into())
-        .spawn(move || read_lines(input, &sender, &hears))?;
+        .spawn(move || read_lines(input, &sender, &reading))?;
     answer_lines(service, &lines, output, running)
 }
 
@@ -75,7 +75,7 @@ fn read_lines(input: impl Read, sender: &SyncSender<Line>, running: &Running) {
         }
         // Anything else waits for its turn.
         if let Some(Ok(messages)) = line.as_deref().map(parse) {
-            running.hear("", &messages);
+            running.handle_cancellations("", &messages);
         }
         if sender.send(line).is_err() {
             return;

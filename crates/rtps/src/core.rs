@@ -342,6 +342,11 @@ impl Core {
         self.guid(EntityId::PARTICIPANT)
     }
 
+    /// Changes whenever a reader or a writer begins or ends: how many there have been, and how many there are.
+    pub fn generation(&self) -> (u32, usize) {
+        (self.entities, self.readers.len() + self.writers.len())
+    }
+
     /// The identities of all readers and writers of the program but these.
     pub fn identities(&self, hidden: &[EntityId]) -> [Vec<[u8; 16]>; 2] {
         let is_shown = |entity: &&EntityId| !entity.is_builtin() && !hidden.contains(entity);
@@ -360,7 +365,7 @@ impl Core {
     }
 
     /// Whether a participant elsewhere reads `writer`, writes what `reader` reads, and knows that reader: an answer will not be lost.
-    pub fn has_answerer(&self, writer: EntityId, reader: EntityId) -> bool {
+    pub fn has_responder(&self, writer: EntityId, reader: EntityId) -> bool {
         let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader))
         else {
             return false;

@@ -74,7 +74,7 @@ fn tool(
     }
 }
 
-/// The same for a tool that only looks.
+/// The same for a tool that changes nothing.
 fn reading(tool: Tool) -> Tool {
     Tool {
         reads_only: true,

@@ -217,7 +217,7 @@ impl Connection {
             }
         };
         if let Some(id) = &session {
-            self.running.hear(id, &messages);
+            self.running.handle_cancellations(id, &messages);
         } else if !begins(&messages) {
             return Some(Reply::refused(
                 400,

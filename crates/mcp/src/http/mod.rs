@@ -79,10 +79,10 @@ impl HttpServer {
         is_over: impl Fn() -> bool,
     ) -> Result<()> {
         let (jobs, incoming) = sync_channel(MAX_CONNECTIONS);
-        let hears = running.clone();
+        let reading = running.clone();
         std::thread::Builder::new()
             .name("connections".into())
-            .spawn(move || self.accept(&jobs, &hears))?;
+            .spawn(move || self.accept(&jobs, &reading))?;
         Sessions::default().run(service, running, &incoming, is_over);
         Ok(())
     }

@@ -92,10 +92,10 @@ impl Endpoint {
     }
 
     /// Whether a participant elsewhere will answer: it reads what this one writes, and what it writes reaches `reader`. Not on the tape.
-    pub(super) fn has_answerer(&self, reader: &Self) -> bool {
+    pub(super) fn has_responder(&self, reader: &Self) -> bool {
         let (writer, reader) = (self.entity, reader.entity);
-        let has_answerer = self.node.core(|core| core.has_answerer(writer, reader));
-        has_answerer.unwrap_or_default()
+        let has_responder = self.node.core(|core| core.has_responder(writer, reader));
+        has_responder.unwrap_or_default()
     }
 
     pub(super) fn publish(&self, record: &Record) {

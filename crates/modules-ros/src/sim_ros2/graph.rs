@@ -1,20 +1,20 @@
-//! The graph of ROS 2: which readers and writers belong to which node. Each participant says it at the topic `ros_discovery_info`, by which
+//! The graph of ROS 2: which readers and writers belong to which node. Each participant publishes it at the topic `ros_discovery_info`, by which
 //! `ros2 node list` and `ros2 node info` know the nodes.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use ros_interfaces::{Array, Layout, Numbers, Record, Value, cdr};
-use rtps::{Core, Durability, History, Qos};
+use rtps::{Durability, History, Qos};
 
 use super::endpoint::Endpoint;
 use super::node::Running;
 use super::ros_values::{self, Style};
 use scene::Data;
 
-/// The type of what participants say.
+/// The type of the messages.
 pub(super) const TYPE: &str = "rmw_dds_common/msg/ParticipantEntitiesInfo";
 /// As DDS calls the topic.
 const TOPIC: &str = "ros_discovery_info";
@@ -29,12 +29,13 @@ type Identities = [Vec<Identity>; 2];
 /// The writers of nodes, by their full names.
 type Nodes = BTreeMap<String, Vec<Identity>>;
 
-/// What this participant says of its node, and what others say of theirs.
+/// What this participant publishes of its node, and what others publish of theirs.
 pub(super) struct Graph {
     layout: Arc<Layout>,
     own: Endpoint,
     others: Endpoint,
-    said: RefCell<Option<Identities>>,
+    /// The state of the readers and writers that was published last.
+    published: Cell<Option<(u32, usize)>>,
     /// The nodes of each participant.
     nodes: RefCell<BTreeMap<Identity, Nodes>>,
 }
@@ -51,26 +52,23 @@ impl Graph {
             // The newest of each participant.
             others: Endpoint::reader(running, TOPIC, &layout, qos(MAX_PARTICIPANTS)),
             layout,
-            said: RefCell::default(),
+            published: Cell::default(),
             nodes: RefCell::default(),
         }
     }
 
-    /// Says what belongs to the node, if that has changed.
-    pub(super) fn say(&self) {
-        let hidden = [self.own.entity, self.others.entity];
-        let identities = |core: &mut Core| core.identities(&hidden);
-        let Some(identities) = self.own.node.core(identities) else {
-            return;
-        };
-        if self.said.borrow().as_ref() == Some(&identities) {
+    /// Publishes what belongs to the node, if that has changed.
+    pub(super) fn publish_changes(&self) {
+        let generation = self.own.node.core(|core| core.generation());
+        if generation.is_none() || self.published.replace(generation) == generation {
             return;
         }
-        let data = self.info(&identities);
+        let hidden = [self.own.entity, self.others.entity];
+        let identities = self.own.node.core(|core| core.identities(&hidden));
+        let data = self.info(&identities.unwrap_or_default());
         if let Ok(record) = ros_values::from_data(&self.layout, &data, Style::default()) {
             self.own.publish(&record);
         }
-        self.said.replace(Some(identities));
     }
 
     fn info(&self, [readers, writers]: &Identities) -> Data {

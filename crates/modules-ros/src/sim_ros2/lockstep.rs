@@ -13,7 +13,7 @@ use super::node::{Entity, Node, Running, node, running};
 use super::topics::Subscription;
 use super::{ApiFn, Cx, Result, functions, names};
 
-pub(super) const FUNCTIONS: &[ApiFn] = functions![await_answers, await_answerers];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![await_answers, await_publishers];
 
 /// Bytes before the data: the kind of encoding, of which the lowest bit of the second says whether numbers are little-endian.
 const ENCAPSULATION: usize = 4;
@@ -124,16 +124,16 @@ fn await_answers(
 /// @param topics names
 /// @param timeout seconds
 /// @return missing topics without one
-#[api("remote.ros2.lockstep.awaitAnswerers")]
-fn await_answerers(cx: &mut Cx, topics: Vec<String>, timeout: f64) -> Result<Vec<String>> {
+#[api("remote.ros2.lockstep.awaitPublishers")]
+fn await_publishers(cx: &mut Cx, topics: Vec<String>, timeout: f64) -> Result<Vec<String>> {
     let node = node(cx);
     await_all(cx, &topics, timeout, |subscription| {
-        let mut is_heard = false;
+        let mut has_responder = false;
         node.entities.for_each(|entity| {
             if let Entity::Publisher(publisher) = entity {
-                is_heard |= publisher.endpoint.has_answerer(&subscription.endpoint);
+                has_responder |= publisher.endpoint.has_responder(&subscription.endpoint);
             }
         });
-        is_heard
+        has_responder
     })
 }

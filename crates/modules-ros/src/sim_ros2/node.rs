@@ -74,7 +74,7 @@ impl Node {
     pub(super) fn spin(&self) {
         let graph = self.graph.borrow().clone();
         if let Some(graph) = graph {
-            graph.say();
+            graph.publish_changes();
         }
         let services = self.parameter_services.borrow().clone();
         if let Some(services) = services {

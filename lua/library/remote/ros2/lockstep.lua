@@ -29,7 +29,7 @@ function M.beforeStart() hasBegun, hasFailed = false, false end
 function M.beforeStep(topics, timeout)
     if hasBegun or hasFailed then return end
     hasBegun = true
-    local missing = native.awaitAnswerers(topics, timeout)
+    local missing = native.awaitPublishers(topics, timeout)
     if #missing > 0 then
         fail('lock step: within %g s no node publishes %s, or no script subscribes to it.', timeout, named(missing))
     end
