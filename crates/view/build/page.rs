@@ -23,7 +23,7 @@ pub fn compress(root: &Path, out: &Path) {
     let files = [
         ("index.html", text("index.html")),
         (MAIN, bundle::stripped(&program)),
-        ("style.css", without_comments(&text("style.css"))),
+        ("style.css", without_comments(&styles(root))),
     ];
     let mut table = String::from("&[\n");
     for (name, content) in files {
@@ -43,6 +43,20 @@ pub fn compress(root: &Path, out: &Path) {
     }
     table.push(']');
     fs::write(out.join("page_files.rs"), table).expect("the output folder is writable");
+}
+
+/// The style sheets of the parts of the page, in the order of their names.
+fn styles(root: &Path) -> String {
+    let folder = root.join("styles");
+    let entries = fs::read_dir(folder).expect("the page has style sheets");
+    let mut paths: Vec<_> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .collect();
+    paths.sort();
+    let texts = paths.iter().map(fs::read_to_string);
+    texts
+        .map(|text| text.expect("style sheets are text"))
+        .collect()
 }
 
 fn gzip(content: &[u8]) -> Vec<u8> {
