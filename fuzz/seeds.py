@@ -9,8 +9,11 @@ Of mesh_* and gltf_asset: a square in each format.
 
 Of urdf, sdf and mjcf: the files in the tests. Of ros_message and ros2_message: the built-in types, with messages that fit some of them. Of rtps:
 how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
+
+Of compressed_image: PNG files of four kinds and a JPEG file.
 """
 
+import base64
 import json
 import marshal
 import pathlib
@@ -18,6 +21,7 @@ import re
 import struct
 import subprocess
 import sys
+import zlib
 
 HEADER = 1021
 METHOD = 12  # 1: compressed, 0: not
@@ -264,7 +268,23 @@ def mcp_message():
         write(f"mcp_message/{number}", json.dumps(message).encode())
 
 
-TARGETS = [scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request, mcp_message]
+def compressed_image():
+    def part(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+    for name, depth, colour, row in (("grey", 8, 0, b"\0\x80"), ("rgb", 8, 2, b"\0abc"), ("rgba16", 16, 6, bytes(9)), ("palette", 1, 3, b"\0\0")):
+        palette = part(b"PLTE", b"abcdef") if colour == 3 else b""
+        head = part(b"IHDR", struct.pack(">IIBBBBB", 1, 1, depth, colour, 0, 0, 0))
+        write(f"compressed_image/{name}.png", b"\x89PNG\r\n\x1a\n" + head + palette + part(b"IDAT", zlib.compress(row)) + part(b"IEND", b""))
+    # 8 x 8 pixels of one grey.
+    jpeg = (
+        "/9j/2wBDAP//////////////////////////////////////////////////////////////////////////////////////wAALCAAIAAgBAREA/8QAFAABAAAAAAAAAA"
+        "AAAAAAAAAAAv/EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAIAQEAAD8AT//Z"
+    )
+    write("compressed_image/grey.jpg", base64.b64decode(jpeg))
+
+
+TARGETS = [compressed_image, scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request, mcp_message]
 for make in TARGETS:
     if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
         make()

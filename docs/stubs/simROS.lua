@@ -68,7 +68,8 @@ function module.getTime(flag) end
 ---@return boolean exists
 function module.hasParam(name) end
 
---- Publishes a topic of images.
+--- Publishes a topic of images. Who subscribes to the topic's name with `/compressed` behind it gets them as `sensor_msgs/CompressedImage`:
+--- JPEG, or as the parameters `TOPIC/compressed/format` ('jpeg', 'png') and `TOPIC/compressed/jpeg_quality` (1 to 100) say when this is called.
 ---@param topicName string as in simROS.advertise
 ---@param queueSize? integer images that wait for a slow subscriber; then the newest stay
 ---@return string publisherHandle it ends with the script
@@ -91,7 +92,7 @@ function module.imageTransportShutdownPublisher(publisherHandle) end
 function module.imageTransportShutdownSubscriber(subscriberHandle) end
 
 --- Subscribes to a topic of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
----@param topicName string as in simROS.subscribe
+---@param topicName string as in simROS.subscribe; with `/compressed` at its end, images come compressed (JPEG or PNG)
 ---@param topicCallback function a function, or the name of a global one
 ---@param queueSize? integer images that wait; the newest stay
 ---@return string subscriberHandle it ends with the script

@@ -190,14 +190,16 @@ function simROS2.getTime(clock_type) end
 ---@return boolean exists
 function simROS2.hasParam(name) end
 
---- Creates a publisher of images.
+--- Creates a publisher of images. Who subscribes to the topic's name with `/compressed` behind it gets them as
+--- `sensor_msgs/msg/CompressedImage`: JPEG, or as the parameters `TOPIC.compressed.format` ('jpeg', 'png') and `TOPIC.compressed.jpeg_quality`
+--- (1 to 100) of the node say, where dots stand for the slashes of the topic.
 ---@param topicName string as in simROS2.createPublisher
 ---@param queueSize? integer how many images are kept
 ---@return string publisherHandle it ends with the script
 function simROS2.imageTransportCreatePublisher(topicName, queueSize) end
 
 --- Creates a subscription of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
----@param topicName string as in simROS2.createPublisher
+---@param topicName string as in simROS2.createPublisher; with `/compressed` at its end, images come compressed (JPEG or PNG)
 ---@param topicCallback function a function, or the name of a global one
 ---@param queueSize? integer how many images wait
 ---@return string subscriptionHandle it ends with the script

@@ -8155,7 +8155,8 @@ class _simROS:
         name: as in simROS.getParamString
         """
     def imageTransportAdvertise(self, topicName: str, queueSize: int | None = ..., /) -> str:
-        """Publishes a topic of images.
+        """Publishes a topic of images. Who subscribes to the topic's name with `/compressed` behind it gets them as `sensor_msgs/CompressedImage`:
+        JPEG, or as the parameters `TOPIC/compressed/format` ('jpeg', 'png') and `TOPIC/compressed/jpeg_quality` (1 to 100) say when this is called.
         topicName: as in simROS.advertise
         queueSize: images that wait for a slow subscriber; then the newest stay
         """
@@ -8177,7 +8178,7 @@ class _simROS:
         """
     def imageTransportSubscribe(self, topicName: str, topicCallback: Callable[..., Any] | str, queueSize: int | None = ..., /) -> str:
         """Subscribes to a topic of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
-        topicName: as in simROS.subscribe
+        topicName: as in simROS.subscribe; with `/compressed` at its end, images come compressed (JPEG or PNG)
         topicCallback: a function, or the name of a global one
         queueSize: images that wait; the newest stay
         """
@@ -8425,13 +8426,15 @@ class _simROS2:
         name: its name
         """
     def imageTransportCreatePublisher(self, topicName: str, queueSize: int | None = ..., /) -> str:
-        """Creates a publisher of images.
+        """Creates a publisher of images. Who subscribes to the topic's name with `/compressed` behind it gets them as
+        `sensor_msgs/msg/CompressedImage`: JPEG, or as the parameters `TOPIC.compressed.format` ('jpeg', 'png') and `TOPIC.compressed.jpeg_quality`
+        (1 to 100) of the node say, where dots stand for the slashes of the topic.
         topicName: as in simROS2.createPublisher
         queueSize: how many images are kept
         """
     def imageTransportCreateSubscription(self, topicName: str, topicCallback: Callable[..., Any] | str, queueSize: int | None = ..., /) -> str:
         """Creates a subscription of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
-        topicName: as in simROS2.createPublisher
+        topicName: as in simROS2.createPublisher; with `/compressed` at its end, images come compressed (JPEG or PNG)
         topicCallback: a function, or the name of a global one
         queueSize: how many images wait
         """

@@ -27,7 +27,7 @@ os.environ["ROS_LOG_DIR"] = os.environ.get("TMPDIR", "/tmp") + "/swanilda-ros1-l
 
 import rospy  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
-from sensor_msgs.msg import Image, LaserScan  # noqa: E402
+from sensor_msgs.msg import CompressedImage, Image, LaserScan  # noqa: E402
 from simulator import LIMIT, Simulator  # noqa: E402
 from std_msgs.msg import Float64, Int32, Int64, String, UInt8MultiArray  # noqa: E402
 from std_srvs.srv import SetBool, SetBoolResponse  # noqa: E402
@@ -93,6 +93,12 @@ def images(simulator):
     until("a connection to /picture", picture.get_num_connections)
     picture.publish(Image(width=1, height=2, step=3, encoding="bgr8", data=b"\x01\x02\x03\x04\x05\x06"))
     equal(simulator.printed("picture"), ", 6, 6, 1, 2", "a picture")
+    compressed = Reader("/image/compressed", CompressedImage).wait(1, "a compressed image")[0]
+    equal((compressed.format, compressed.header.frame_id), ("rgb8; png compressed bgr8", "camera"), "a compressed image")
+    picture = rospy.Publisher("/picture_again/compressed", CompressedImage, queue_size=1)
+    until("a connection to /picture_again", picture.get_num_connections)
+    picture.publish(CompressedImage(format=compressed.format, data=compressed.data))
+    equal(simulator.printed("again"), ", 123456789abcdefghi, 2, 3", "the compressed image, which has come back")
 
 
 def services(simulator, command):

@@ -8,6 +8,13 @@ fn topics_and_services_with_cyclone_dds() {
     check("ros2_peers.py");
 }
 
+/// JPEG and PNG in both directions.
+#[test]
+#[cfg(target_os = "linux")]
+fn compressed_images_with_cyclone_dds() {
+    check("ros2_images.py");
+}
+
 /// Every service and the action of the standard simulation interfaces.
 #[test]
 #[cfg(target_os = "linux")]

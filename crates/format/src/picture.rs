@@ -9,7 +9,10 @@ use image::ExtendedColorType;
 #[cfg(feature = "pictures")]
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{self, FilterType};
-use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, Rgba32FImage, RgbaImage};
+use image::{
+    DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, Rgba32FImage,
+    RgbaImage,
+};
 
 /// No picture is larger: it could hardly be meant.
 const MAX_SIDE: u32 = 16_384;
@@ -28,6 +31,14 @@ pub enum PictureError {
     /// A side has no pixel or too many.
     #[error("the resolution of an image lies between 1 and {MAX_SIDE}.")]
     Resolution,
+    /// A file states a size that is not taken from outside.
+    #[error("the image is too large: {width} x {height}.")]
+    TooLarge {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
     /// Two images that are to become one have sides of different lengths.
     #[error("the images have different sizes.")]
     Sizes,
@@ -130,6 +141,37 @@ impl Picture {
         (limits.max_image_width, limits.max_image_height) = (Some(MAX_SIDE), Some(MAX_SIDE));
         reader.limits(limits);
         Ok(Self::from_dynamic(&reader.decode()?, layout))
+    }
+
+    /// The picture of a PNG or JPEG file that somebody else has sent: the size it states is refused before memory is taken, if the pixels
+    /// have more than `max_bytes`.
+    ///
+    /// # Errors
+    /// When the bytes are no such picture, or one that is too large.
+    pub fn decode_within(
+        file: &[u8],
+        layout: Layout,
+        max_bytes: u64,
+    ) -> Result<Self, PictureError> {
+        let format = image::guess_format(file)?;
+        if !matches!(format, ImageFormat::Png | ImageFormat::Jpeg) {
+            return Err(PictureError::Kind(format!("{format:?}").to_lowercase()));
+        }
+        let mut reader = ImageReader::with_format(Cursor::new(file), format);
+        let mut limits = Limits::default();
+        (limits.max_image_width, limits.max_image_height) = (Some(MAX_SIDE), Some(MAX_SIDE));
+        limits.max_alloc = Some(max_bytes);
+        reader.limits(limits);
+        let decoder = reader.into_decoder()?;
+        let (width, height) = decoder.dimensions();
+        let needed = u64::from(width) * u64::from(height) * layout as u64;
+        if needed.max(decoder.total_bytes()) > max_bytes {
+            return Err(PictureError::TooLarge { width, height });
+        }
+        Ok(Self::from_dynamic(
+            &DynamicImage::from_decoder(decoder)?,
+            layout,
+        ))
     }
 
     /// Whether the bytes begin like a picture of a known kind.
@@ -293,7 +335,7 @@ fn side(pixels: i64) -> Result<u32, PictureError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Layout, Picture};
+    use super::{Layout, Picture, PictureError};
 
     fn picture() -> Picture {
         Picture::new((0..12).collect(), [2, 2], Layout::Rgb)
@@ -314,6 +356,26 @@ mod tests {
             }
         }
         assert!(picture().encode("xyz", 90).is_err());
+    }
+
+    #[test]
+    fn files_of_others_are_bounded() {
+        let file = picture().encode("png", 90).expect("a known kind");
+        let decoded = |file: &[u8], max_bytes| Picture::decode_within(file, Layout::Rgb, max_bytes);
+        assert_eq!(decoded(&file, 12).expect("it fits"), picture());
+        assert!(matches!(
+            decoded(&file, 11),
+            Err(PictureError::TooLarge {
+                width: 2,
+                height: 2
+            })
+        ));
+        for length in 0..file.len() - 12 {
+            assert!(decoded(&file[..length], 1 << 20).is_err(), "{length}");
+        }
+        // No other kinds: this one is not what images of robots are sent in.
+        let other = picture().encode("bmp", 90).expect("a known kind");
+        assert!(decoded(&other, 1 << 20).is_err());
     }
 
     #[test]

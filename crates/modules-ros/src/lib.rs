@@ -1,5 +1,6 @@
 //! The modules of ROS 1 and ROS 2.
 
+mod ros_compressed;
 mod ros_entities;
 mod ros_images;
 mod ros_values;

@@ -1,60 +1,116 @@
-//! Images of ROS, both generations: `sensor_msgs/Image` without compression.
+//! Images of ROS, both generations: `sensor_msgs/Image`, and what callbacks get of the messages of a topic.
 //!
 //! Pictures of vision sensors have their lowest row first, those of ROS their highest one: rows change places both ways.
 
 use ros_interfaces::{Array, Number, Numbers, Record, Value};
 
-use super::{ApiError, Result};
+use super::ros_values::{self, Style};
+use super::{ApiError, Result, ros_compressed};
 use scene::numbers;
 use scene::{Data, Key};
 
 /// The most pixels of a row or column.
 const MAX_SIDE: i64 = 1 << 16;
 
-/// A message of an image with three bytes per pixel, the lowest row first.
-///
-/// # Errors
-/// When the data do not fit the size.
-pub(super) fn message(
-    data: &[u8],
-    width: i64,
-    height: i64,
-    stamp: Data,
-    frame_id: &str,
-) -> Result<Data> {
-    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
-        return Err(ApiError::Other(format!(
-            "invalid size of an image: {width} x {height}"
-        )));
+/// Where `image_transport` has the compressed images of a topic: behind its name.
+pub(super) const COMPRESSED: &str = "/compressed";
+
+/// What a callback gets of the messages of a topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Content {
+    /// A table.
+    Message,
+    /// Data, width and height of an image.
+    Image,
+    /// The same of a compressed one.
+    CompressedImage,
+}
+
+impl Content {
+    /// Of a topic of images, by its name.
+    pub(super) fn of_images(topic: &str) -> Self {
+        if topic.ends_with(COMPRESSED) {
+            Self::CompressedImage
+        } else {
+            Self::Image
+        }
     }
-    let row = width as usize * 3;
-    let needed = row * height as usize;
-    if data.len() != needed {
-        return Err(ApiError::Other(format!(
-            "the image has {} bytes, expected {needed}",
-            data.len()
-        )));
+
+    pub(super) fn is_image(self) -> bool {
+        self != Self::Message
     }
-    let flipped: Vec<u8> = data.chunks_exact(row).rev().flatten().copied().collect();
-    // Empty strings mean that none was given.
+
+    /// What a callback gets of a message.
+    pub(super) fn arguments(
+        self,
+        record: &Record,
+        style: Style,
+    ) -> std::result::Result<Vec<Data>, String> {
+        match self {
+            Self::Message => Ok(vec![ros_values::to_data(record, style)]),
+            Self::Image => arguments(record),
+            Self::CompressedImage => ros_compressed::arguments(record),
+        }
+    }
+}
+
+/// An image with three bytes per pixel, the highest row first.
+pub(super) struct Frame {
+    pub(super) rows: Vec<u8>,
+    pub(super) width: i64,
+    pub(super) height: i64,
+}
+
+impl Frame {
+    /// Of data with the lowest row first.
+    ///
+    /// # Errors
+    /// When the data do not fit the size.
+    pub(super) fn new(data: &[u8], width: i64, height: i64) -> Result<Self> {
+        if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+            return Err(ApiError::Other(format!(
+                "invalid size of an image: {width} x {height}"
+            )));
+        }
+        let row = width as usize * 3;
+        let needed = row * height as usize;
+        if data.len() != needed {
+            return Err(ApiError::Other(format!(
+                "the image has {} bytes, expected {needed}",
+                data.len()
+            )));
+        }
+        let rows = data.chunks_exact(row).rev().flatten().copied().collect();
+        Ok(Self {
+            rows,
+            width,
+            height,
+        })
+    }
+
+    /// A message of the image.
+    pub(super) fn message(self, stamp: Data, frame_id: &str) -> Data {
+        Data::map([
+            ("header", header(stamp, frame_id)),
+            ("height", Data::Int(self.height)),
+            ("width", Data::Int(self.width)),
+            ("encoding", Data::text("rgb8")),
+            ("step", Data::Int(3 * self.width)),
+            ("data", Data::Buffer(self.rows)),
+        ])
+    }
+}
+
+/// The head of a message. An empty string means that no frame was given.
+pub(super) fn header(stamp: Data, frame_id: &str) -> Data {
     let frame = (!frame_id.is_empty()).then(|| ("frame_id", Data::text(frame_id)));
-    let header = [("stamp", stamp)].into_iter().chain(frame);
+    let fields = [("stamp", stamp)].into_iter().chain(frame);
     let key = |name: &str| Key::Text(name.as_bytes().to_vec());
-    Ok(Data::map([
-        (
-            "header",
-            Data::Map(header.map(|(name, value)| (key(name), value)).collect()),
-        ),
-        ("height", Data::Int(height)),
-        ("width", Data::Int(width)),
-        ("encoding", Data::text("rgb8")),
-        ("step", Data::Int(numbers::count(row))),
-        ("data", Data::Buffer(flipped)),
-    ]))
+    Data::Map(fields.map(|(name, value)| (key(name), value)).collect())
 }
 
 /// What a callback gets of a message: RGB data with the lowest row first, width, height.
-pub(super) fn arguments(record: &Record) -> std::result::Result<Vec<Data>, String> {
+fn arguments(record: &Record) -> std::result::Result<Vec<Data>, String> {
     let (Some(width), Some(height), Some(step)) = (
         size(record, "width"),
         size(record, "height"),

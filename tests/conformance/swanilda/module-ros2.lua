@@ -66,6 +66,12 @@ function sysCall_init()
     image = r.imageTransportCreatePublisher(place .. '/i')
     r.imageTransportCreateSubscription(place .. '/i', function(data, w, h) print('image', w, h, data:byte(1), data:byte(-1)) end)
     wrong(r.imageTransportPublish, image, 'abc', 2, 2, 'camera')
+    -- Nobody reads what is compressed here, so it is not compressed.
+    r.setParamString((place .. '.j.compressed.format'):sub(2), 'tiff')
+    r.imageTransportPublish(r.imageTransportCreatePublisher(place .. '/j'), ('\1'):rep(12), 2, 2, 'camera')
+    r.setParamString((place .. '.k.compressed.format'):sub(2), 'png')
+    compressed = r.imageTransportCreatePublisher(place .. '/k')
+    r.imageTransportCreateSubscription(place .. '/k/compressed', function(data, w, h) print('compressed', w, h, data:byte(1), data:byte(-1)) end)
 
     late = r.createPublisher(place .. '/l', 'std_msgs/msg/Int64', 0, false, {durability = r.qos_durability_policy.transient_local, depth = 2})
     for i = 1, 3 do r.publish(late, {data = i}) end
@@ -95,6 +101,9 @@ function sysCall_nonSimulation()
         for i = 1, 12 do simROS2.publish(numbers, {data = i}) end
         simROS2.publish(bytes, {data = '\1\200'})
         simROS2.imageTransportPublish(image, ('\1'):rep(6) .. ('\2'):rep(6), 2, 2, 'camera')
+        simROS2.imageTransportPublish(compressed, ('\3'):rep(6) .. ('\4'):rep(6), 2, 2, 'camera')
+        simROS2.setParamString((place .. '.k.compressed.format'):sub(2), 'tiff')
+        wrong(simROS2.imageTransportPublish, compressed, ('\3'):rep(12), 2, 2, 'camera')
         simROS2.sendTransform {header = {frame_id = 'world'}, child_frame_id = 'robot', transform = {translation = {x = 1}}}
         simROS2.actionServerActionExecute(server, current)
         simROS2.actionServerPublishFeedback(server, current, {sequence = {0, 1}})

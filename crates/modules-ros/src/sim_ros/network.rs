@@ -286,6 +286,11 @@ impl Publisher {
             publisher.publish(message);
         }
     }
+
+    /// How many nodes it is sent to. Not on the tape.
+    pub(super) fn subscribers(&self) -> usize {
+        self.0.as_ref().map_or(0, ros1::Publisher::subscribers)
+    }
 }
 
 /// What reads a topic.

@@ -5,11 +5,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use api_macro::api;
-use ros_interfaces::{Layout, Record};
+use ros_interfaces::Layout;
 
+use super::images::CompressedTopic;
 use super::node::{Entity, add, get, message, message_type, node, queue_size, running, shut_down};
 use super::ros_values::{self, Style};
-use super::{ApiError, ApiFn, Cx, Result, failed, functions, images, network};
+use super::{ApiError, ApiFn, Cx, Result, failed, functions, network};
+use crate::ros_images::Content;
 use scene::Data;
 use script::{ScriptCallback, ScriptFunction, Table};
 
@@ -30,7 +32,8 @@ pub(super) struct Publisher {
     layout: Arc<Layout>,
     publisher: network::Publisher,
     style: Cell<Style>,
-    pub(super) is_image: bool,
+    /// Of images: the topic with the same ones compressed.
+    pub(super) compressed: Option<CompressedTopic>,
 }
 
 /// What reads a topic.
@@ -39,7 +42,7 @@ pub(super) struct Subscription {
     subscriber: network::Subscriber,
     style: Cell<Style>,
     callback: ScriptCallback,
-    pub(super) is_image: bool,
+    pub(super) content: Content,
     /// Whether a message that cannot be read was reported.
     has_warned: Cell<bool>,
 }
@@ -63,19 +66,24 @@ impl Publisher {
             layout,
             publisher,
             style: Cell::default(),
-            is_image: false,
+            compressed: None,
         })
     }
 
     /// Of images, whose data are strings.
-    pub(super) fn of_images(self) -> Self {
+    pub(super) fn of_images(self, compressed: Option<CompressedTopic>) -> Self {
         Self {
             style: Cell::new(Style {
                 bytes_as_strings: true,
             }),
-            is_image: true,
+            compressed,
             ..self
         }
+    }
+
+    /// How many nodes it is sent to.
+    pub(super) fn subscribers(&self) -> usize {
+        self.publisher.subscribers()
     }
 
     /// # Errors
@@ -114,16 +122,13 @@ impl Subscription {
             subscriber,
             style,
             callback,
-            is_image: false,
+            content: Content::Message,
             has_warned,
         })
     }
 
-    pub(super) fn of_images(self) -> Self {
-        Self {
-            is_image: true,
-            ..self
-        }
+    pub(super) fn of_images(self, content: Content) -> Self {
+        Self { content, ..self }
     }
 
     /// Calls back for what has arrived.
@@ -137,7 +142,7 @@ impl Subscription {
             };
             let args = ros_interfaces::ros1::decode(&self.layout, &message)
                 .map_err(|error| error.to_string())
-                .and_then(|record| self.arguments(&record));
+                .and_then(|record| self.content.arguments(&record, self.style.get()));
             match args {
                 Ok(args) => drop(self.callback.call_logged(&args)),
                 Err(problem) => self.warn(&format!(
@@ -154,26 +159,20 @@ impl Subscription {
             self.callback.warn(&format!("simROS: {problem}"));
         }
     }
-
-    fn arguments(&self, record: &Record) -> std::result::Result<Vec<Data>, String> {
-        if self.is_image {
-            images::arguments(record)
-        } else {
-            Ok(vec![ros_values::to_data(record, self.style.get())])
-        }
-    }
 }
 
 fn publisher(entity: Entity) -> Option<Rc<Publisher>> {
     match entity {
-        Entity::Publisher(publisher) if !publisher.is_image => Some(publisher),
+        Entity::Publisher(publisher) if publisher.compressed.is_none() => Some(publisher),
         _ => None,
     }
 }
 
 fn subscription(entity: Entity) -> Option<Rc<Subscription>> {
     match entity {
-        Entity::Subscription(subscription) if !subscription.is_image => Some(subscription),
+        Entity::Subscription(subscription) if !subscription.content.is_image() => {
+            Some(subscription)
+        }
         _ => None,
     }
 }

@@ -98,6 +98,12 @@ impl Endpoint {
         has_responder.unwrap_or_default()
     }
 
+    /// How many readers, here and elsewhere, a writer has. Not on the tape.
+    pub(super) fn matched(&self) -> usize {
+        let matched = self.node.core(|core| core.matched(self.entity));
+        matched.unwrap_or_default()
+    }
+
     pub(super) fn publish(&self, record: &Record) {
         self.write(record, None);
     }

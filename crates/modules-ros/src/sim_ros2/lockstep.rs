@@ -131,7 +131,8 @@ fn await_publishers(cx: &mut Cx, topics: Vec<String>, timeout: f64) -> Result<Ve
         let mut has_responder = false;
         node.entities.for_each(|entity| {
             if let Entity::Publisher(publisher) = entity {
-                has_responder |= publisher.endpoint.has_responder(&subscription.endpoint);
+                let mut endpoints = publisher.endpoints();
+                has_responder |= endpoints.any(|own| own.has_responder(&subscription.endpoint));
             }
         });
         has_responder

@@ -5,13 +5,15 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use api_macro::api;
-use ros_interfaces::{Layout, Record, cdr};
+use ros_interfaces::{Layout, cdr};
 use rtps::{History, Qos};
 
 use super::endpoint::Endpoint;
+use super::images::CompressedTopic;
 use super::node::{self, Entity, add, get, running, shut_down};
 use super::ros_values::{self, Style};
-use super::{ApiError, ApiFn, Cx, Result, functions, images, interfaces, qos};
+use super::{ApiError, ApiFn, Cx, Result, functions, interfaces, qos};
+use crate::ros_images::Content;
 use scene::Data;
 use script::{ScriptCallback, ScriptFunction, Table};
 
@@ -32,7 +34,8 @@ pub(super) struct Publisher {
     pub(super) layout: Arc<Layout>,
     pub(super) endpoint: Endpoint,
     pub(super) style: Cell<Style>,
-    pub(super) is_image: bool,
+    /// Of images: the topic with the same ones compressed.
+    pub(super) compressed: Option<CompressedTopic>,
 }
 
 /// What reads a topic.
@@ -41,7 +44,7 @@ pub(super) struct Subscription {
     pub(super) endpoint: Endpoint,
     pub(super) style: Cell<Style>,
     pub(super) callback: ScriptCallback,
-    pub(super) is_image: bool,
+    pub(super) content: Content,
     /// Whether a message that cannot be read was reported.
     pub(super) has_warned: Cell<bool>,
 }
@@ -55,7 +58,7 @@ impl Subscription {
             };
             let args = cdr::decode(&self.layout, &sample.payload)
                 .map_err(|error| error.to_string())
-                .and_then(|record| self.arguments(&record));
+                .and_then(|record| self.content.arguments(&record, self.style.get()));
             match args {
                 Ok(args) => drop(self.callback.call_logged(&args)),
                 Err(problem) if !self.has_warned.replace(true) => {
@@ -68,26 +71,20 @@ impl Subscription {
             }
         }
     }
-
-    fn arguments(&self, record: &Record) -> std::result::Result<Vec<Data>, String> {
-        if self.is_image {
-            images::arguments(record)
-        } else {
-            Ok(vec![ros_values::to_data(record, self.style.get())])
-        }
-    }
 }
 
 pub(super) fn publisher(entity: Entity) -> Option<Rc<Publisher>> {
     match entity {
-        Entity::Publisher(publisher) if !publisher.is_image => Some(publisher),
+        Entity::Publisher(publisher) if publisher.compressed.is_none() => Some(publisher),
         _ => None,
     }
 }
 
 fn subscription(entity: Entity) -> Option<Rc<Subscription>> {
     match entity {
-        Entity::Subscription(subscription) if !subscription.is_image => Some(subscription),
+        Entity::Subscription(subscription) if !subscription.content.is_image() => {
+            Some(subscription)
+        }
         _ => None,
     }
 }
@@ -126,7 +123,7 @@ fn create_publisher(
         layout,
         endpoint,
         style: Cell::default(),
-        is_image: false,
+        compressed: None,
     };
     Ok(add(cx, Entity::Publisher(Rc::new(publisher))))
 }
@@ -147,6 +144,12 @@ impl Publisher {
             .map_err(ApiError::Other)?;
         self.endpoint.publish(&record);
         Ok(())
+    }
+
+    /// Its writers: of images there are two.
+    pub(super) fn endpoints(&self) -> impl Iterator<Item = &Endpoint> {
+        let compressed = self.compressed.iter().map(|topic| &topic.endpoint);
+        [&self.endpoint].into_iter().chain(compressed)
     }
 }
 
@@ -196,7 +199,7 @@ fn create_subscription(
         endpoint,
         style,
         callback,
-        is_image: false,
+        content: Content::Message,
         has_warned,
     };
     Ok(add(cx, Entity::Subscription(Rc::new(subscription))))
@@ -267,7 +270,7 @@ fn broadcaster(cx: &Cx) -> Result<Rc<Publisher>> {
         layout,
         endpoint,
         style: Cell::default(),
-        is_image: false,
+        compressed: None,
     });
     *node.broadcaster.borrow_mut() = Some(broadcaster.clone());
     Ok(broadcaster)
