@@ -20,12 +20,17 @@ fn a_capture_in_a_browser() {
 
 #[test]
 fn windows_of_scripts_in_a_browser() {
-    check_in_browser_with("view_windows.py", &[&old_scene()]);
+    check_in_browser_with("view_windows.py", &[&old_scene("view_windows.ttt")]);
+}
+
+#[test]
+fn frames_and_notices_in_a_browser() {
+    check_in_browser_with("view_frames.py", &[&old_scene("view_frames.ttt")]);
 }
 
 /// A scene with a user interface of V-REP, which no script can make.
-fn old_scene() -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view_buttons.ttt");
+fn old_scene(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let mut sim = Simulator::new(Options::default());
     let button = |number: i32, attributes: i32, cell: [i32; 2], span: [i32; 2], label: &str| {
         let colours = [0.2, 0.5, 0.3, 0.8, 0.4, 0.2, 1.0, 1.0, 1.0];
@@ -44,7 +49,7 @@ fn old_scene() -> PathBuf {
         button(2, 0x18, [4, 0], [4, 1], "Hold <b>"),
         button(3, 0x12, [0, 1], [8, 1], "Speed"),
         button(4, 0x13, [0, 2], [8, 1], "0.5"),
-        button(5, 0x11, [0, 3], [8, 1], "a label"),
+        button(5, 0x11, [0, 3], [8, 1], "a label && more"),
     ];
     let (cells, cell_size) = ([8, 4], [20, 16]);
     let interface = ButtonInterface {

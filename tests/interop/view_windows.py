@@ -70,7 +70,7 @@ def buttons_of_old_scenes(browser, sim):
     field = f"document.querySelector('{panel} input[type=text]')"
     browser.evaluate(f"{field}.value = '0.75'; {field}.dispatchEvent(new Event('change'))")
     sim.printed("button, 4, 0, 0, 0.75")
-    same("a label", browser.evaluate(f"[...document.querySelectorAll('{panel} .ui-label')].map(label => label.textContent)"), ["a label"])
+    same("a label", browser.evaluate(f"[...document.querySelectorAll('{panel} .ui-label')].map(label => label.textContent)"), ["a label & more"])
 
 
 def dialogs_wait_for_answers(browser, sim):

@@ -81,7 +81,7 @@ export class Layout {
     });
     this.camera = el('select', { 'aria-label': 'Camera', onchange: () => page.useCamera(Number(this.camera.value)) });
     this._cameras();
-    const menu = el('div', { class: 'menu', role: 'dialog', 'aria-label': 'Options of the view', hidden: true }, el('label', { class: 'menu-row' }, 'Camera', this.camera), ...boxes);
+    const menu = el('div', { class: 'menu', role: 'dialog', 'aria-label': 'Options of the view', hidden: true }, el('label', { class: 'menu-row' }, 'Camera', this.camera), ...boxes, page.shelf.element);
     document.getElementById('stage').append(menu);
     for (const [name] of OPTIONS) this._applyOption(name, this._option(name));
     return menu;

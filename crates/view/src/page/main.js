@@ -13,6 +13,7 @@ import { Overlay } from './panes/overlay.js';
 import { Questions } from './panes/questions.js';
 import { ScriptPane } from './panes/script.js';
 import { SensorImages } from './panes/sensor_images.js';
+import { Shelf } from './panes/shelf.js';
 import { TreePane } from './panes/tree.js';
 import { ViewsPane } from './panes/views.js';
 import { WindowsPane } from './panes/windows.js';
@@ -30,6 +31,7 @@ class Page {
     this.renderer = this._renderer();
     this.sensorImages = new SensorImages(source);
     this.layout = new Layout(this);
+    this.shelf = new Shelf(this);
     this.tree = new TreePane(at('tree-pane'), this);
     this.inspector = new InspectorPane(at('inspector-pane'), this);
     this.console = new ConsolePane(at('console'), this);

@@ -4,11 +4,15 @@ import { el, setText, svg } from '../dom.js';
 const SIZE = 76;
 const AXES = [['X', [1, 0, 0], 'axis-x'], ['Y', [0, 1, 0], 'axis-y'], ['Z', [0, 0, 1], 'axis-z']];
 const SHORT = 3000; // milliseconds
+const MOMENT = 300; // the same: what takes less is not worth a sentence
 
 export class Overlay {
   constructor(page) {
-    Object.assign(this, { page, store: page.store });
+    Object.assign(this, { page, store: page.store, since: null, loading: null });
+    this.sentence = el('span');
+    this.stop = el('button', { type: 'button', class: 'answer-button', hidden: true, onclick: () => page.ask('stop') }, 'Stop');
     this.notice = document.getElementById('notice');
+    this.notice.replaceChildren(this.sentence, this.stop);
     this.tip = el('div', { class: 'tip', role: 'tooltip', hidden: true });
     this.grid = el('span', { class: 'grid-size' });
     this.lines = AXES.map(([name, , kind]) => ({ line: svg('line', { class: kind }), label: svg('text', { class: kind, 'text-anchor': 'middle', dy: '0.35em' }, name) }));
@@ -26,11 +30,12 @@ export class Overlay {
       closed: 'The simulator has gone. Reconnecting…',
       ended: `The simulator has ended${connection.reason ? `: ${connection.reason}` : ''}. Start it again to see more.`,
     };
-    const empty = !objects.size ? 'The scene is empty.' : null;
+    const empty = !objects.size ? (scene.state ? 'The scene is empty.' : 'Loading the scene…') : null;
     const stopped = scene.state === 'stopped' && this.page.canWrite && !scene.steps ? 'The simulation is stopped. Press Space to start.' : null;
     const urgent = this.page.failure ?? sentences[connection.state] ?? busy;
-    const text = urgent ?? this.said ?? empty ?? stopped ?? '';
-    setText(this.notice, text);
+    const text = urgent ?? this.said ?? empty ?? this.loading ?? stopped ?? '';
+    setText(this.sentence, text);
+    this.stop.hidden = urgent !== busy || !busy || !this.page.canWrite;
     this.notice.hidden = !text;
     this.notice.classList.toggle('urgent', !!urgent);
   }
@@ -56,9 +61,19 @@ export class Overlay {
     this.tip.style.top = `${y + 16}px`;
   }
 
+  /** Says so when meshes are on their way for longer than a moment. */
+  _loads(now) {
+    this.since = this.page.renderer.resources.busy ? this.since ?? now : null;
+    const loading = this.since !== null && now - this.since > MOMENT ? 'Loading meshes and textures…' : null;
+    if (loading === this.loading) return;
+    this.loading = loading;
+    this._notice();
+  }
+
   /** After each picture. */
   frame() {
     const { matrices, spacing, options } = this.page.renderer;
+    this._loads(performance.now());
     if (!matrices || matrices === this.drawn) return;
     this.drawn = matrices;
     const { right, up, forward } = matrices;

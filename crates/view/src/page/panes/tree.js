@@ -161,23 +161,12 @@ export class TreePane {
       ArrowRight: () => (row?.open === false ? this._setOpen(row, true) : row?.open && go(index + 1)),
       ArrowLeft: () => (row?.open ? this._setOpen(row, false) : row && this._activate(this.rows.find(({ object }) => object.handle === row.object.parent))),
       Enter: () => row && this.page.select(row.object.handle, false),
-      ' ': () => row && this.page.select(row.object.handle, event.ctrlKey),
-      o: () => row && this._open(row),
+      ' ': () => row && this.page.select(row.object.handle, true),
     };
-    if (!actions[event.key] || (event.ctrlKey && event.key !== ' ')) return this._type(event, index);
+    if (!actions[event.key] || event.ctrlKey !== (event.key === ' ')) return; // letters are keys of the page; Space alone starts and pauses
     event.preventDefault();
     event.stopPropagation();
     actions[event.key]();
-  }
-
-  /** Letters go to the next row that begins so. */
-  _type(event, index) {
-    if (event.key.length !== 1 || event.ctrlKey || event.altKey || !/\p{L}/u.test(event.key)) return;
-    const key = event.key.toLowerCase();
-    const order = [...this.rows.slice(index + 1), ...this.rows.slice(0, index + 1)];
-    const found = order.find(({ object }) => object.alias.toLowerCase().startsWith(key));
-    if (found) this._activate(found);
-    event.stopPropagation();
   }
 
   _activate(row) {

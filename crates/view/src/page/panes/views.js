@@ -1,26 +1,38 @@
 // Floating views of scripts (sim.floatingViewAdd): what a camera or a vision sensor sees, or the curves of a graph, above the scene.
-import { el, setText } from '../dom.js';
+import { el } from '../dom.js';
 import { drawCurves } from './curves.js';
+import { Floating } from './floating.js';
 import { drawImage } from './sensor_images.js';
 
 const COLORS = ['#3b82f6', '#e4572e', '#2a9d8f', '#b5179e', '#e9a800'];
 const REFRESH = 500; // milliseconds between two looks at a graph
 
-class View {
+class View extends Floating {
   constructor(pane, view) {
+    super(pane.layer, pane.page.shelf, { id: view.id, kind: 'view', members: { class: 'window view' } });
     this.pane = pane;
-    this.title = el('h2', { id: `view-${view.id}` });
     this.canvas = el('canvas', { role: 'img', 'aria-labelledby': this.title.id });
-    this.element = el('section', { class: 'window view', 'aria-labelledby': this.title.id, 'data-view': view.id }, el('header', {}, this.title), this.canvas);
+    this.element.append(this.canvas);
     this.drawn = 0;
   }
 
   update(view) {
+    const place = JSON.stringify([view.position, view.size]);
     this.view = view;
-    const { position: [x, y], size: [width, height] } = view;
-    const place = { left: x - width / 2, top: 1 - y - height / 2, width, height };
-    for (const [side, part] of Object.entries(place)) this.element.style[side] = `${part * 100}%`;
     this.showTitle();
+    if (place === this.place) return;
+    this.place = place;
+    this.takePlace();
+  }
+
+  /** As large as the script says, and there, unless it was moved. */
+  takePlace() {
+    const { position: [x, y], size: [width, height] } = this.view;
+    const { clientWidth, clientHeight } = this.layer;
+    Object.assign(this.element.style, { width: `${width * 100}%`, height: `${height * 100}%` });
+    if (this.kept.length === 2) this.moveTo(...this.kept);
+    else this.placeAt((x - width / 2) * clientWidth, (1 - y - height / 2) * clientHeight);
+    this.setFolded(this.keptFolded);
   }
 
   get object() {
@@ -28,11 +40,12 @@ class View {
   }
 
   showTitle() {
-    setText(this.title, this.view.label || this.object?.alias || 'View');
+    this.setTitle(this.view.label || this.object?.alias || 'View');
   }
 
   /** What it shows as it is now. */
   draw() {
+    if (this.folded || this.away) return;
     const { object, canvas, pane } = this;
     const { store, page } = pane;
     if (object?.objectType === 'visionSensor') drawImage(canvas, store.images.get(object.handle));
@@ -57,11 +70,12 @@ export class ViewsPane {
     this.store.on('views', () => this._update());
     this.store.on('objects', () => this._titles());
     for (const topic of ['image', 'scene', 'objects']) this.store.on(topic, () => this.draw());
+    new ResizeObserver(() => this.views.forEach((view) => view.takePlace())).observe(layer);
   }
 
   _update() {
     const there = new Set(this.store.views.map(({ id }) => id));
-    for (const [id, view] of this.views) if (!there.has(id)) view.element.remove(), this.views.delete(id);
+    for (const [id, view] of this.views) if (!there.has(id)) view.remove(), this.views.delete(id);
     for (const view of this.store.views) {
       if (!this.views.has(view.id)) this._open(view);
       this.views.get(view.id).update(view);

@@ -1,43 +1,38 @@
-// Windows of scripts (simUI) above the scene: frames that can be dragged and remember their place; what is in them makes widgets/container.js.
-import { el, iconButton, setText } from '../dom.js';
-import { remember, setting } from '../settings.js';
+// Windows of scripts (simUI) above the scene; what is in them makes widgets/container.js.
+import { el } from '../dom.js';
+import { Floating, titleText } from './floating.js';
 import { container } from './widgets/container.js';
 
 const MARGIN = 12;
 const NARROW = 640; // pixels; there windows are folded at first, so that the scene is seen
 
 /** One window, kept up to date. */
-class Frame {
+class Frame extends Floating {
   constructor(pane, window) {
+    const members = { role: 'dialog' };
+    super(pane.layer, pane.page.shelf, { id: window.id, kind: 'window', members, close: window.closeable ? () => this._send({ type: 'close' }) : undefined });
     Object.assign(this, { pane, id: window.id });
-    this.title = el('h2', { id: `window-${window.id}` });
-    this.fold = iconButton('fold', 'Fold', () => this._setFolded(!this.folded), { class: 'icon-button window-fold' });
-    this.bar = el('header', {}, this.title, this.fold, window.closeable && iconButton('close', 'Close', () => this._send({ type: 'close' })));
     this.body = el('div', { class: 'window-body' });
-    this.element = el('section', { class: 'window', role: 'dialog', 'aria-labelledby': this.title.id, 'data-window': window.id }, this.bar, this.body);
-    this.element.addEventListener('pointerdown', () => pane.raise(this));
+    this.element.append(this.body);
     this.element.addEventListener('keydown', (event) => this._key(event));
-    this.bar.addEventListener('pointerdown', (event) => this._drag(event));
     this.update(window);
-    this._setFolded(innerWidth < NARROW || !!window.folded);
-  }
-
-  _setFolded(folded) {
-    this.folded = folded;
-    this.element.classList.toggle('folded', folded);
-    this.fold.setAttribute('aria-expanded', String(!folded));
+    this.setFolded(innerWidth < NARROW || !!window.folded || this.keptFolded);
   }
 
   update(window) {
     const before = this.window;
     this.window = window;
-    setText(this.title, window.title || 'Window');
-    this.element.hidden = !window.visible;
+    this.setTitle(window.title || 'Window');
+    this.showAway();
     this.element.classList.toggle('resizable', !!window.resizable);
     if (before && window.revision !== undefined && before.revision === window.revision) return;
-    if (before && !!before.folded !== !!window.folded) this._setFolded(!!window.folded);
+    if (before && !!before.folded !== !!window.folded) this.setFolded(!!window.folded);
     const form = { id: this.id, enabled: window.enabled !== false, send: (input) => this._send(input) };
-    this._replaceBody(window.content ? container(window.content, form) : null);
+    this._replaceBody(window.content ? withoutTitle(container(window.content, form), this.name) : null);
+  }
+
+  showAway() {
+    this.element.hidden = !!this.away || !this.window.visible;
   }
 
   /** Fields that are being edited keep focus and text. */
@@ -80,35 +75,24 @@ class Frame {
 
   /** Where it stands: as it was left, else as the script says, else below the one before. */
   place(index) {
-    const stage = this.pane.layer.getBoundingClientRect();
+    const { clientWidth, clientHeight } = this.layer;
     const [width, height] = [this.element.offsetWidth, this.element.offsetHeight];
     const { placement, position = [50, 50] } = this.window;
-    const kept = setting(`window ${this.window.title}`, []);
-    const free = [stage.width - width, stage.height - height];
+    const free = [clientWidth - width, clientHeight - height];
     const asked = position.map((x, i) => (placement === 'relative' && x < 0 ? free[i] + x : x));
     const usual = [free[0] - MARGIN, 56 + MARGIN * index * 3];
-    this.moveTo(...(kept.length === 2 ? kept : placement === 'center' || !placement ? usual : asked));
+    if (this.kept.length === 2) this.moveTo(...this.kept);
+    else this.placeAt(...(placement === 'center' || !placement ? usual : asked));
   }
+}
 
-  moveTo(x, y) {
-    const stage = this.pane.layer.getBoundingClientRect();
-    this.x = Math.min(Math.max(x, 0), Math.max(stage.width - this.element.offsetWidth, 0));
-    this.y = Math.min(Math.max(y, 0), Math.max(stage.height - this.element.offsetHeight, 0));
-    this.element.style.left = `${this.x}px`;
-    this.element.style.top = `${this.y}px`;
-  }
-
-  _drag(event) {
-    if (event.target.closest('button')) return;
-    const [dx, dy] = [event.clientX - this.x, event.clientY - this.y];
-    this.bar.setPointerCapture(event.pointerId);
-    const move = (at) => this.moveTo(at.clientX - dx, at.clientY - dy);
-    this.bar.addEventListener('pointermove', move);
-    this.bar.addEventListener('pointerup', () => {
-      this.bar.removeEventListener('pointermove', move);
-      remember(`window ${this.window.title}`, [this.x, this.y]);
-    }, { once: true });
-  }
+/** Content that begins with its title once more goes without it: the frame has it. */
+function withoutTitle(content, title) {
+  const first = content.querySelector('.widget');
+  const repeats = first?.classList.contains('ui-label') && titleText(first.textContent.trim()) === title;
+  if (repeats && content.classList.contains('none')) first.style.visibility = 'hidden'; // the others have their places
+  else if (repeats) first.hidden = true;
+  return content;
 }
 
 export class WindowsPane {
@@ -128,7 +112,7 @@ export class WindowsPane {
     const { windows } = this.page.store;
     for (const [id, frame] of this.frames) {
       if (windows.has(id)) continue;
-      frame.element.remove();
+      frame.remove();
       this.frames.delete(id);
     }
     for (const window of windows.values()) {
@@ -143,10 +127,6 @@ export class WindowsPane {
     this.frames.set(window.id, frame);
     this.layer.append(frame.element);
     frame.place(this.frames.size - 1);
-  }
-
-  raise(frame) {
-    if (this.layer.lastElementChild !== frame.element && !frame.element.contains(document.activeElement)) this.layer.append(frame.element);
   }
 
   send(window, input) {

@@ -81,12 +81,15 @@ function disable(element) {
   element.classList.add('disabled');
 }
 
+/** A text of Qt: the letter behind an ampersand is a shortcut there, two ampersands are one. */
+const plain = (text) => (text ?? '').replace(/&(.?)/g, '$1');
+
 const unknown = (item) => el('div', { class: 'hint' }, `The page cannot show “${item.kind}”.`);
 const key = (item) => ({ 'data-widget': item.id });
 
 function button(item, form) {
   const pressed = item.checkable ? { 'aria-pressed': String(!!item.checked) } : {};
-  const element = el('button', { type: 'button', ...key(item), ...pressed }, item.text || '');
+  const element = el('button', { type: 'button', ...key(item), ...pressed }, plain(item.text));
   if (item.holds) return holding(element, form);
   element.addEventListener('click', () => form.send({ type: 'click' }));
   if (item.repeat) repeat(element, item.repeat, () => form.send({ type: 'click' }));
@@ -123,12 +126,12 @@ function repeat(element, [delay, interval], click) {
 
 function checkbox(item, form) {
   const box = el('input', { type: 'checkbox', ...key(item), checked: item.value === 2, indeterminate: item.value === 1, onchange: () => form.send({ type: 'click' }) });
-  return el('label', { class: 'choice' }, box, item.text);
+  return el('label', { class: 'choice' }, box, plain(item.text));
 }
 
 function radiobutton(item, form) {
   const dot = el('input', { type: 'radio', ...key(item), checked: item.value === 1, onclick: () => form.send({ type: 'click' }) });
-  return el('label', { class: 'choice' }, dot, item.text);
+  return el('label', { class: 'choice' }, dot, plain(item.text));
 }
 
 function combobox(item, form) {
@@ -165,7 +168,7 @@ function spinbox(item, form) {
 }
 
 function label(item, form) {
-  if (item.plain) return el('div', {}, item.text ?? '');
+  if (item.plain) return el('div', {}, plain(item.text));
   const element = el('div', { class: item.wordWrap ? 'wraps' : '' });
   element.append(richText(item.text ?? '', (href) => form.send({ type: 'link', href })));
   return element;
@@ -202,7 +205,7 @@ function tabs(item, form) {
     const chosen = i === item.current;
     const choose = (index) => form.send({ type: 'value', value: (index + item.pages.length) % item.pages.length });
     const by = { ArrowRight: 1, ArrowLeft: -1 };
-    list.append(el('button', { type: 'button', role: 'tab', id: tab, 'data-widget': `${item.id}-${i}`, tabindex: chosen ? 0 : -1, 'aria-selected': String(chosen), 'aria-controls': panel, onclick: () => choose(i), onkeydown: (event) => by[event.key] && choose(i + by[event.key]) }, page.title));
+    list.append(el('button', { type: 'button', role: 'tab', id: tab, 'data-widget': `${item.id}-${i}`, tabindex: chosen ? 0 : -1, 'aria-selected': String(chosen), 'aria-controls': panel, onclick: () => choose(i), onkeydown: (event) => by[event.key] && choose(i + by[event.key]) }, plain(page.title)));
     element.append(el('div', { role: 'tabpanel', id: panel, 'aria-labelledby': tab, hidden: !chosen }, container(page.content, form.whole)));
   });
   return element;
