@@ -24,6 +24,11 @@ fn windows_of_scripts_in_a_browser() {
 }
 
 #[test]
+fn values_of_objects_in_a_browser() {
+    check_in_browser("view_values.py");
+}
+
+#[test]
 fn frames_and_notices_in_a_browser() {
     check_in_browser_with("view_frames.py", &[&old_scene("view_frames.ttt")]);
 }

@@ -8,7 +8,7 @@ use dynamics::Contact;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, Scene, ValueType};
 use script::log::RecentLine;
-use script::property_table::flags;
+use script::property_table::{ValueSource, flags};
 use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
@@ -26,6 +26,8 @@ pub struct PropertyRow {
     pub is_writable: bool,
     /// What it is, in a sentence; empty for properties of scripts.
     pub description: &'static str,
+    /// Whether anything here depends on it; others are kept for scripts and files.
+    pub has_effect: bool,
 }
 
 /// What scripts and physics have done, for those who watch a run.
@@ -233,6 +235,7 @@ pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, Api
                 value,
                 is_writable,
                 description: row.description,
+                has_effect: has_effect(&row.source),
             })
         })
         .collect();
@@ -250,9 +253,18 @@ pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, Api
             value,
             is_writable: true,
             description: "",
+            has_effect: true,
         });
     }
     Ok(rows)
+}
+
+fn has_effect(source: &ValueSource) -> bool {
+    match source {
+        ValueSource::Inert(_) => false,
+        ValueSource::Engine(param) => param.works,
+        ValueSource::Works(_) | ValueSource::Constant(_) | ValueSource::Opposite(_) => true,
+    }
 }
 
 /// The function with which scripts read a property of that type.

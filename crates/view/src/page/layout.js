@@ -150,7 +150,7 @@ export class Layout {
       split.setAttribute('aria-valuenow', String(Math.round(kept * 100)));
       remember('tree part', (this.part = kept));
     };
-    set(setting('tree part', 0.5));
+    set(setting('tree part', 0.42));
     split.addEventListener('keydown', (event) => {
       const by = { ArrowUp: -0.05, ArrowDown: 0.05 }[event.key];
       if (by) event.preventDefault(), event.stopPropagation(), set(this.part + by);

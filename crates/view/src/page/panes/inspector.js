@@ -1,6 +1,9 @@
 // Properties of the selected object: grouped, live, editable where a script could write them.
 import { copyText, el, iconButton, setText } from '../dom.js';
 import { Sparkline } from './curves.js';
+import { arranged, FOLDED, madeRows, TITLES } from './inspect/essentials.js';
+import { PoseBlock } from './inspect/pose.js';
+import { shownUnit } from './inspect/units.js';
 import { drawImage } from './sensor_images.js';
 import { editorOf, formatted } from './values.js';
 
@@ -8,13 +11,13 @@ const GETTERS = {
   bool: 'getBoolProperty', int: 'getIntProperty', long: 'getLongProperty', float: 'getFloatProperty', string: 'getStringProperty', buffer: 'getBufferProperty', color: 'getColorProperty',
   vector2: 'getVector2Property', vector3: 'getVector3Property', quaternion: 'getQuaternionProperty', pose: 'getPoseProperty', handle: 'getHandleProperty',
 };
-const CALLS = { jointPosition: 'getJointPosition', alias: 'getObjectAlias', mass: 'getShapeMass', position: 'getObjectPosition', absolutePosition: 'getObjectPosition', pose: 'getObjectPose', parent: 'getObjectParent' };
+const CALLS = { jointPosition: 'getJointPosition', alias: 'getObjectAlias', mass: 'getShapeMass', position: 'getObjectPosition', absolutePosition: 'getObjectPosition', absolutePose: 'getObjectPose', parent: 'getObjectParent' };
 const TARGETS = { [-13]: 'sim.handle_app', [-12]: 'sim.handle_scene' };
-const FOLDED = new Set(['data', 'engines']); // groups that are closed at first
 
 /** Lua that reads a property. */
 export function luaOf(row, handle, path) {
   const target = TARGETS[handle] ?? `sim.getObject(${JSON.stringify(path).replaceAll('"', "'")})`;
+  if (row.name === 'pose' && handle >= 0) return `sim.getObjectPose(${target}, sim.handle_parent)`;
   if (CALLS[row.name] && handle >= 0) return `sim.${CALLS[row.name]}(${target})`;
   return `sim.${GETTERS[row.type] ?? 'getProperty'}(${target}, '${row.name}')`;
 }
@@ -26,13 +29,14 @@ export class InspectorPane {
     this.rows = new Map();
     this.folded = new Map();
     this.title = el('h3', { class: 'inspected' });
+    this.kind = el('p', { class: 'inspected-kind' });
     this.tools = el('div', { class: 'inspected-tools' });
     this.search = el('input', { type: 'search', placeholder: 'Search properties', 'aria-label': 'Search properties', oninput: () => this._filter() });
     this.list = el('div', { class: 'properties' });
     this.hint = el('p', { class: 'hint' });
     this.picture = el('canvas', { class: 'sensor-image', hidden: true, role: 'img', 'aria-label': 'Image of the vision sensor' });
     this.sparkline = new Sparkline();
-    pane.append(el('div', { class: 'inspected-head' }, this.title, this.tools), this.picture, el('div', { class: 'pane-tools' }, this.search), this.hint, this.list, this.sparkline.element);
+    pane.append(el('div', { class: 'inspected-head' }, this.title, this.tools), this.kind, this.picture, el('div', { class: 'pane-tools' }, this.search), this.hint, this.list, this.sparkline.element);
     this.store.on('selection', () => this._selected());
     this.store.on('objects', (changed) => changed.has(this.handle) && this._head());
     this.store.on('properties', () => this._values());
@@ -62,12 +66,15 @@ export class InspectorPane {
 
   _head() {
     const object = this.store.objects.get(this.handle);
-    const head = `${this.handle} ${object?.alias} ${object?.objectType}`;
+    const head = `${this.handle} ${object?.alias} ${object?.objectType} ${object?.lightType} ${object?.parent}`;
     if (head === this.head) return;
     this.head = head;
     const names = { [-12]: 'Scene', [-13]: 'Application' };
     setText(this.title, object ? object.alias : names[this.handle] ?? 'Nothing selected');
-    this.title.title = object ? `${this.store.path(this.handle)} (${object.objectType}, handle ${this.handle})` : '';
+    const path = this.store.path(this.handle);
+    setText(this.kind, object ? `${[object.jointType ?? object.lightType, spaced(object.objectType)].filter(Boolean).join(' ')}, handle ${this.handle}` : '');
+    this.kind.hidden = !object;
+    this.title.title = object ? `${path} (${object.objectType}, handle ${this.handle})` : '';
     const tools = [];
     if (object?.objectType === 'script') tools.push(iconButton('script', 'Read the script', () => this.page.openScript(this.handle)));
     if (object && object.objectType !== 'script') tools.push(iconButton('follow', 'Follow with the camera', () => this.page.follow(object.handle)), iconButton('fit', 'Look at it (F)', () => this.page.fit([object.handle])));
@@ -99,21 +106,34 @@ export class InspectorPane {
 
   _show(rows) {
     this.rows.clear();
-    const groups = new Map();
-    for (const row of rows) {
-      const name = row.group || 'other';
-      if (!groups.has(name)) groups.set(name, []);
-      groups.get(name).push(row);
-    }
-    this.list.replaceChildren(...[...groups].map(([name, members]) => this._group(name, members)));
+    this.shown = rows;
+    const object = this.store.objects.get(this.handle);
+    const { main, groups } = arranged(rows, object);
+    this.pose = this._poseBlock(rows, object);
+    const first = main.length ? [el('section', { class: 'group essentials', 'aria-label': 'What matters' }, ...main.map((row) => this._row(row)))] : [];
+    this.list.replaceChildren(...(this.pose ? [this.pose.element] : []), ...first, ...groups.map(([name, members]) => this._group(name, members)));
     this.hint.hidden = rows.length > 0;
     setText(this.hint, rows.length ? '' : 'It has no properties.');
     this._filter();
   }
 
+  _poseBlock(rows, object) {
+    const of = Object.fromEntries(rows.filter(({ name }) => name === 'pose' || name === 'absolutePose').map((row) => [row.name, row]));
+    if (!object || !(of.pose ?? of.absolutePose)) return null;
+    this.poses = of;
+    const { handle } = this;
+    return new PoseBlock(of, {
+      isRoot: !this.store.objects.has(object.parent),
+      writable: this.page.canWrite && !!of.pose?.writable,
+      set: (value) => this.page.ask('set', { handle, name: 'pose', value }),
+      lua: (row) => luaOf(row, handle, this.store.path(handle)),
+      again: () => this._show(this.shown),
+    }, this.pose?.entered);
+  }
+
   _group(name, rows) {
     const open = this.folded.get(name) ?? !FOLDED.has(name);
-    const group = el('details', { class: 'group', open }, el('summary', {}, name), ...rows.map((row) => this._row(row)));
+    const group = el('details', { class: 'group', open }, el('summary', {}, TITLES[name] ?? name), ...rows.map((row) => this._row(row)));
     group.addEventListener('toggle', () => this.folded.set(name, group.open));
     return group;
   }
@@ -122,11 +142,12 @@ export class InspectorPane {
     const writable = row.writable && this.page.canWrite;
     const label = row.label || row.name;
     const editor = writable ? editorOf(row, label, (value) => this._set(row, value)) : null;
-    const shown = editor?.element ?? el('output', { class: 'value', 'aria-label': label }, formatted(row));
-    const copy = iconButton('copy', `Copy as Lua: ${luaOf(row, this.handle, this.store.path(this.handle))}`, () => copyText(luaOf(row, this.handle, this.store.path(this.handle))), { class: 'icon-button copy' });
-    copy.setAttribute('aria-label', `Copy ${label} as Lua`);
-    const wide = Array.isArray(row.value) && row.value.length > 2 && row.type !== 'color';
-    const element = el('div', { class: wide ? 'property wide' : 'property', 'data-name': row.name }, el('span', { class: 'label', title: row.name }, label), shown, el('span', { class: 'unit' }, row.unit ?? ''), copy);
+    const shown = editor?.element ?? el('output', { class: 'value', 'aria-label': label }, this._text(row));
+    const wide = Array.isArray(row.value) && row.value.length > 1 && row.type !== 'color';
+    const name = el('span', { class: 'label', title: row.name }, label);
+    editor?.draggedBy?.(name);
+    const unit = el('span', { class: 'unit', title: row.inert ? 'It is kept for scripts and files, and has no effect in Swanilda.' : null }, row.inert ? 'no effect' : shownUnit(row.unit).unit);
+    const element = el('div', { class: `property${wide ? ' wide' : ''}${row.inert ? ' inert' : ''}`, 'data-name': row.name }, name, shown, unit, this._copy(row, label));
     const entry = { row, editor, shown, element, history: [] };
     if (typeof row.value === 'number') this._watchHistory(element, entry);
     const hasCurve = typeof row.value === 'number' || row.name === 'absolutePose';
@@ -135,36 +156,64 @@ export class InspectorPane {
     return element;
   }
 
+  _copy(row, label) {
+    const lua = luaOf(row, this.handle, this.store.path(this.handle));
+    const copy = iconButton('copy', `Copy as Lua: ${lua}`, () => copyText(lua), { class: 'icon-button copy' });
+    copy.setAttribute('aria-label', `Copy ${label} as Lua`);
+    return copy;
+  }
+
+  /** A value as text; handles with the name of the object. */
+  _text(row) {
+    const object = /Handle$/.test(row.name) && typeof row.value === 'number' ? this.store.objects.get(row.value) : null;
+    if (/Handle$/.test(row.name) && row.value === -1) return 'none';
+    return object ? `${object.alias} (${row.value})` : formatted(row);
+  }
+
   _watchHistory(element, entry) {
     element.addEventListener('pointerenter', () => this.sparkline.show(element, entry));
     element.addEventListener('pointerleave', () => this.sparkline.hide());
   }
 
   _set(row, value) {
-    this.page.ask('set', { handle: this.handle, name: row.name, value }).then(null, () => this.rows.get(row.name)?.editor?.show(row.value));
+    const back = () => {
+      const editor = this.rows.get(row.name)?.editor;
+      if (editor?.reset) editor.reset();
+      editor?.show(row.value);
+    };
+    this.page.ask('set', { handle: this.handle, name: row.name, value }).then(null, back);
   }
 
   _values() {
     const { handle, values } = this.store.properties;
     if (handle !== this.handle) return;
     const time = this.store.scene.time ?? 0;
-    for (const fresh of values) {
-      const entry = this.rows.get(fresh.name);
-      if (!entry) continue;
-      Object.assign(entry.row, fresh);
-      if (entry.editor) entry.editor.show(fresh.value);
-      else setText(entry.shown, formatted(entry.row));
-      if (typeof fresh.value === 'number') remember(entry.history, time, fresh.value);
-    }
+    for (const fresh of values) this._value(fresh, time);
+    const known = new Map(this.shown?.map((row) => [row.name, row]) ?? []);
+    for (const fresh of values) if (known.has(fresh.name)) known.get(fresh.name).value = fresh.value;
+    for (const made of madeRows(known, this.store.objects.get(handle))) this._value(made, time);
+    if (this.pose && values.some(({ name }) => this.poses[name])) this.pose.update();
     this.sparkline.update();
+  }
+
+  _value(fresh, time) {
+    const entry = this.rows.get(fresh.name);
+    if (!entry) return;
+    entry.row.value = fresh.value;
+    if (entry.editor) entry.editor.show(fresh.value);
+    else setText(entry.shown, this._text(entry.row));
+    if (typeof fresh.value === 'number') remember(entry.history, time, fresh.value);
   }
 
   _filter() {
     const text = this.search.value.trim().toLowerCase();
     for (const { row, element } of this.rows.values()) element.hidden = !!text && !`${row.name} ${row.label}`.toLowerCase().includes(text);
-    for (const group of this.list.children) group.hidden = [...group.querySelectorAll('.property')].every((row) => row.hidden);
+    for (const group of this.list.querySelectorAll('.group')) group.hidden = [...group.querySelectorAll('.property')].every((row) => row.hidden);
   }
 }
+
+/** `forceSensor` in words. */
+const spaced = (type) => type.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`);
 
 function remember(history, time, value) {
   if (history.length && history.at(-1)[0] > time) history.length = 0; // the simulation began again

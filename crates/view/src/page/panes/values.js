@@ -1,15 +1,20 @@
 // Values of properties as text and as fields to edit.
 import { el } from '../dom.js';
+import { CHOICES } from './inspect/essentials.js';
+import { decimal, NumberField, NumberList } from './inspect/number.js';
+import { shownUnit } from './inspect/units.js';
 
 const NUMBERS = new Set(['int', 'long', 'float', 'handle']);
+
+/** What the numbers of a list are. */
+const NAMES = { interval: ['from', 'to'], clippingPlanes: ['near', 'far'], resolution: ['width', 'height'], maxVelAccelJerk: ['velocity', 'acceleration', 'jerk'], springDamperParams: ['stiffness', 'damping'], dependencyParams: ['offset', 'factor'] };
 
 const INTEGERS = new Set(['int', 'long', 'handle', 'intarray', 'intarray2']);
 
 /** Numbers with a fixed width behind the point, except integers. */
 function number(x, type) {
   if (INTEGERS.has(type) || (type === 'table' && Number.isInteger(x))) return String(x);
-  const size = Math.abs(x);
-  return size !== 0 && (size < 1e-4 || size >= 1e7) ? x.toExponential(4) : x.toFixed(4);
+  return decimal(x);
 }
 
 /** @param {any} value @param {string} type as of a property */
@@ -23,9 +28,14 @@ export function text(value, type) {
   return JSON.stringify(value);
 }
 
-/** @param {{value: any, type: string}} row */
+/** @param {{value: any, type: string, name: string, unit?: string}} row */
 export function formatted(row) {
-  return text(row.value, row.type);
+  const { value, type, name } = row;
+  const word = typeof value === 'number' && CHOICES[name]?.find(([number]) => number === value)?.[1];
+  if (word) return word;
+  const { factor } = shownUnit(row.unit);
+  const scaled = (x) => (typeof x === 'number' ? x * factor : x);
+  return text(factor === 1 ? value : Array.isArray(value) ? value.map(scaled) : scaled(value), type);
 }
 
 const hex = (rgb) => '#' + rgb.slice(0, 3).map((x) => Math.round(Math.min(Math.max(x, 0), 1) * 255).toString(16).padStart(2, '0')).join('');
@@ -34,14 +44,18 @@ const rgb = (value) => [1, 3, 5].map((i) => parseInt(value.slice(i, i + 2), 16) 
 /**
  * A field for a value; null for what has none.
  * @param {{value: any, type: string}} row @param {string} label @param {function(any): void} change
- * @returns {{element: HTMLElement, show: function(any): void} | null}
+ * @returns {{element: HTMLElement, show: function(any): void, reset?: function(): void, unit?: string, draggedBy?: function(HTMLElement): void} | null}
  */
 export function editorOf(row, label, change) {
   const { type, value } = row;
   if (type === 'bool') return checkbox(label, value, change);
   if (type === 'color') return color(label, value, change);
+  if (CHOICES[row.name] && typeof value === 'number') return choice(row, label, change);
   const isList = Array.isArray(value) && value.every((x) => typeof x === 'number');
-  if (typeof value === 'string' || NUMBERS.has(type) || isList) return field(row, label, change, isList);
+  const integer = INTEGERS.has(type);
+  if (NUMBERS.has(type) && typeof value === 'number') return new NumberField({ label, value, unit: row.unit, integer, change });
+  if (isList && value.length > 1 && value.length <= 4) return new NumberList({ label, names: NAMES[row.name], value, unit: row.unit, integer, change });
+  if (typeof value === 'string' || isList) return field(row, label, change, isList);
   return null;
 }
 
@@ -55,14 +69,24 @@ function color(label, value, change) {
   return { element, show: (now) => (element.value = hex(now)) };
 }
 
+function choice({ name, value }, label, change) {
+  const options = (now) => (CHOICES[name].some(([number]) => number === now) ? CHOICES[name] : [...CHOICES[name], [now, String(now)]]);
+  const element = el('select', { class: 'value', 'aria-label': label, onchange: () => change(Number(element.value)) });
+  const show = (now) => {
+    element.replaceChildren(...options(now).map(([number, word]) => el('option', { value: number }, word)));
+    element.value = String(now);
+  };
+  show(value);
+  return { element, show };
+}
+
 function field(row, label, change, isList) {
   const { type } = row;
-  const isNumber = NUMBERS.has(type);
-  const element = el('input', { type: 'text', class: isNumber || isList ? 'value number' : 'value', value: text(row.value, type), 'aria-label': label, spellcheck: 'false' });
-  const parse = () => (isList ? element.value.split(/[\s,]+/).filter(Boolean).map(Number) : isNumber ? Number(element.value) : element.value);
+  const element = el('input', { type: 'text', class: isList ? 'value number' : 'value', value: text(row.value, type), 'aria-label': label, spellcheck: 'false' });
+  const parse = () => (isList ? element.value.split(/[\s,]+/).filter(Boolean).map(Number) : element.value);
   element.addEventListener('change', () => {
     const value = parse();
-    const wrong = isList ? value.length !== row.value.length || value.some(Number.isNaN) : Number.isNaN(value);
+    const wrong = isList && (value.length !== row.value.length || value.some(Number.isNaN));
     if (wrong) element.value = text(row.value, type);
     else change(value);
   });
