@@ -110,6 +110,23 @@ def old_windows_too(browser):
     same("labels", browser.evaluate(f"[...document.querySelectorAll(\"{panel} .ui-label\")].map(label => label.textContent)"), ["a label & more"])
 
 
+def panels_change_their_size(browser):
+    """By dragging and by keys, and they remember it."""
+    for panel, by, size in (("side", (90, 0), "offsetWidth"), ("console", (0, -70), "offsetHeight")):
+        border, now = found(f"#{panel} .border"), f"document.getElementById('{panel}').{size}"
+        before = browser.evaluate(now)
+        drag(browser, middle(browser, border), by)
+        same(f"{panel} is larger", browser.evaluate(now) - before, abs(sum(by)))
+        same("it says so", browser.evaluate(f"{border}.ariaValueNow"), str(browser.evaluate(now)))
+        browser.evaluate(f"{border}.focus()")
+        key(browser, "ArrowLeft" if panel == "side" else "ArrowDown")
+        same("by keys", browser.evaluate(now) - before, abs(sum(by)) - 16)
+    sizes = "document.getElementById('side').offsetWidth + ' ' + document.getElementById('console').offsetHeight"
+    before = browser.evaluate(sizes)
+    browser.command("Page.reload")
+    browser.shows(f"globalThis.swanilda?.store.connection.state == 'open' && {sizes} == '{before}'", "the sizes are kept")
+
+
 def opened(browser, sim):
     browser.open(sim.line(lambda line: line["type"] == "viewing", "the address")["url"])
     browser.shows("globalThis.swanilda?.store.connection.state == 'open' && swanilda.renderer.matrices", "the page")
@@ -129,6 +146,7 @@ def main():
             old_windows_too(browser)
             frames_are_moved_folded_and_closed(browser, "[data-view]", "Eyes & ears")
             loading_is_said(browser)
+            panels_change_their_size(browser)
         # What a person ended does not end by itself when it is replayed.
         with Simulator("--empty", "--paused", "--no-open", "--capture", os.devnull, command="view") as sim:
             opened(browser, sim)

@@ -1,6 +1,7 @@
 // Panels: which are shown, how large, light or dark; remembered between visits.
 import { el, iconButton } from './dom.js';
 import { remember, setting } from './settings.js';
+import { addBorders } from './splits.js';
 import { THEMES } from './render/themes.js';
 
 const NARROW = 640; // pixels; below it panels cover the scene and are closed at first
@@ -20,6 +21,7 @@ export class Layout {
     this.narrow = matchMedia(`(max-width: ${NARROW - 0.02}px)`);
     this.narrow.addEventListener('change', () => this._fit());
     this._split();
+    addBorders();
     page.store.on('objects', () => this._cameras());
   }
 

@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn rows_say_where_an_object_is_and_what_has_no_effect() {
-        let sim = Simulator::new(simulator::Options::default());
+        let mut sim = Simulator::new(simulator::Options::default());
         sim.scene_mut().add_default_objects().unwrap();
         let scene = sim.scene();
         let shape = scene.objects().find(|object| object.shape().is_ok());
