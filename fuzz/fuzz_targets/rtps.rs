@@ -29,6 +29,8 @@ fuzz_target!(|input: &[u8]| {
         domain: 0,
         unicast: place,
         announce_to: Vec::new(),
+        has_multicast: true,
+        is_alone: false,
         name: String::new(),
         user_data: Vec::new(),
         is_loopback_only: true,

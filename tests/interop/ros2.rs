@@ -35,3 +35,10 @@ fn lock_step_with_cyclone_dds() {
 fn fifty_topics_with_cyclone_dds() {
     check("ros2_crowd.py");
 }
+
+/// Without multicast: one side names the address of the other.
+#[test]
+#[cfg(target_os = "linux")]
+fn static_peers_with_cyclone_dds() {
+    check("ros2_static_peers.py");
+}

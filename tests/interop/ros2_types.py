@@ -9,9 +9,9 @@ import time
 
 DOMAIN = int(os.environ.get("DOMAIN", 100 + os.getpid() % 100))
 INTERFACE = '<NetworkInterface name="lo" multicast="true"/>'
-os.environ["CYCLONEDDS_URI"] = (
-    f"<CycloneDDS><Domain><General><Interfaces>{INTERFACE}</Interfaces></General></Domain></CycloneDDS>"
-)
+# A test may have other settings of the domain; they have to be there before this file is imported.
+SETTINGS = os.environ.get("CYCLONE_DOMAIN", f"<General><Interfaces>{INTERFACE}</Interfaces></General>")
+os.environ["CYCLONEDDS_URI"] = f"<CycloneDDS><Domain>{SETTINGS}</Domain></CycloneDDS>"
 os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
 
 from cyclonedds.core import Policy, Qos  # noqa: E402
@@ -180,8 +180,8 @@ class Client:
         head = {"client": types.uint64, "number": types.int64}
         self.name = name
         self.request = _struct(f"{kind}_Request", head | (parts[0] or {"structure_needs_at_least_one_member": types.uint8}))
-        response = _struct(f"{kind}_Response", head | parts[1])
-        self.replies = reader(f"rr/{name}Reply", response)
+        self.response = _struct(f"{kind}_Response", head | parts[1])
+        self.replies = reader(f"rr/{name}Reply", self.response)
         self.requests = writer(f"rq/{name}Request", self.request)
 
     def __call__(self, **fields):

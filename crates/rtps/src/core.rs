@@ -34,6 +34,10 @@ pub struct CoreSettings {
     pub unicast: SocketAddrV4,
     /// Where it announces itself, beside the multicast address.
     pub announce_to: Vec<SocketAddrV4>,
+    /// Whether it announces itself by multicast, and receives what comes that way.
+    pub has_multicast: bool,
+    /// Whether nobody is to be found, whatever arrives.
+    pub is_alone: bool,
     /// For people.
     pub name: String,
     /// For programs: ROS 2 has its enclave here.

@@ -30,7 +30,7 @@ pub(crate) struct OwnParticipant<'a> {
     pub(crate) prefix: Prefix,
     pub(crate) domain: u32,
     pub(crate) unicast: SocketAddrV4,
-    pub(crate) multicast: SocketAddrV4,
+    pub(crate) multicast: Option<SocketAddrV4>,
     pub(crate) name: &'a str,
     pub(crate) user_data: &'a [u8],
     pub(crate) lease: Duration,
@@ -70,7 +70,9 @@ impl OwnParticipant<'_> {
         list.push(pid::DOMAIN_ID, &self.domain.to_le_bytes());
         list.push(pid::BUILTIN_ENDPOINT_SET, &BUILTIN_ENDPOINTS.to_le_bytes());
         list.push(pid::METATRAFFIC_UNICAST_LOCATOR, &locator(self.unicast));
-        list.push(pid::METATRAFFIC_MULTICAST_LOCATOR, &locator(self.multicast));
+        if let Some(multicast) = self.multicast {
+            list.push(pid::METATRAFFIC_MULTICAST_LOCATOR, &locator(multicast));
+        }
         list.push(pid::DEFAULT_UNICAST_LOCATOR, &locator(self.unicast));
         list.push(pid::LEASE_DURATION, &duration(Some(self.lease)));
         list.push_text(pid::ENTITY_NAME, self.name);

@@ -27,7 +27,7 @@ pub use self::core::{Core, CoreSettings, Written};
 pub use discovery::Endpoint;
 pub use guid::{EntityId, Guid, Prefix, SampleIdentity};
 pub use message::Timestamp;
-pub use network::{Network, OpenError};
+pub use network::{Discovery, Network, OpenError, Range};
 pub use participant::Participant;
 pub use qos::{Durability, History, Liveliness, Qos, Reliability};
 pub use reader::Sample;

@@ -11,6 +11,8 @@ use crate::core::{MULTICAST, multicast_port, unicast_port};
 const MAX_PARTICIPANTS: u32 = 120;
 /// Of them, how many are told directly; the others are found by multicast.
 const ANNOUNCED_PORTS: u32 = 20;
+/// The same at the address of a static peer, where nobody is found by multicast.
+const STATIC_PORTS: u32 = 32;
 /// What the system is asked to keep for a socket.
 const BUFFER: usize = 8 << 20;
 
@@ -22,6 +24,27 @@ pub enum Network {
     Loopback,
     /// In the network that an address of this machine belongs to; unspecified for the one that the system prefers.
     Address(Ipv4Addr),
+}
+
+/// Whom a participant looks for: ROS 2's `ROS_AUTOMATIC_DISCOVERY_RANGE` and `ROS_STATIC_PEERS`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Discovery {
+    /// Where it looks by itself.
+    pub range: Range,
+    /// Machines where it looks too, unless the range is off: without multicast.
+    pub static_peers: Vec<Ipv4Addr>,
+}
+
+/// Where a participant looks for others by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Range {
+    /// Nowhere, and nobody finds it.
+    Off,
+    /// On this machine. In a network, nothing is sent or received by multicast.
+    Localhost,
+    /// Wherever multicast reaches: in the network, or on this machine if that is all that is used.
+    #[default]
+    Subnet,
 }
 
 /// Why a participant cannot be.
@@ -49,13 +72,13 @@ pub enum OpenError {
 pub(crate) struct Sockets {
     pub(crate) unicast: UdpSocket,
     /// Where announcements of others are received.
-    pub(crate) multicast: UdpSocket,
+    pub(crate) multicast: io::Result<Option<UdpSocket>>,
     pub(crate) address: SocketAddrV4,
     pub(crate) is_loopback_only: bool,
 }
 
 impl Sockets {
-    pub(crate) fn open(domain: u32, network: Network) -> Result<Self, OpenError> {
+    pub(crate) fn open(domain: u32, network: Network, range: Range) -> Result<Self, OpenError> {
         if domain > 232 {
             return Err(OpenError::Domain(domain));
         }
@@ -73,7 +96,14 @@ impl Sockets {
         let (unicast, port) = unicast(domain, address)
             .map_err(refused)?
             .ok_or(OpenError::TooMany(domain))?;
-        let multicast = multicast(domain, address).map_err(refused)?;
+        let is_by_multicast = match range {
+            Range::Off => false,
+            Range::Localhost => is_loopback_only,
+            Range::Subnet => true,
+        };
+        // Where there is no multicast, as in some containers, others are still found one by one.
+        let multicast = is_by_multicast.then(|| multicast(domain, address));
+        let multicast = multicast.transpose();
         Ok(Self {
             unicast,
             multicast,
@@ -82,13 +112,28 @@ impl Sockets {
         })
     }
 
-    /// Where other participants on this machine may be that are not found by multicast.
-    pub(crate) fn announce_to(&self, domain: u32) -> Vec<SocketAddrV4> {
-        (0..ANNOUNCED_PORTS)
-            .filter_map(|number| u16::try_from(unicast_port(domain, number)).ok())
-            .map(|port| SocketAddrV4::new(*self.address.ip(), port))
-            .filter(|address| *address != self.address)
-            .collect()
+    /// Where other participants may be that are not found by multicast.
+    pub(crate) fn announce_to(&self, domain: u32, discovery: &Discovery) -> Vec<SocketAddrV4> {
+        if discovery.range == Range::Off {
+            return Vec::new();
+        }
+        let here = (*self.address.ip(), ANNOUNCED_PORTS);
+        let there = discovery.static_peers.iter().map(|ip| (*ip, STATIC_PORTS));
+        let ports = |(ip, count)| {
+            (0..count)
+                .filter_map(move |number| u16::try_from(unicast_port(domain, number)).ok())
+                .map(move |port| SocketAddrV4::new(ip, port))
+        };
+        let places = [here].into_iter().chain(there).flat_map(ports);
+        let mut places: Vec<_> = places.filter(|place| *place != self.address).collect();
+        places.sort_unstable();
+        places.dedup();
+        places
+    }
+
+    /// The socket for announcements of others, if there is one.
+    pub(crate) fn multicast(&self) -> Option<&UdpSocket> {
+        self.multicast.as_ref().ok().and_then(Option::as_ref)
     }
 
     /// Sends, if the address is allowed. What the system does not take is sent again by the protocol, or lost.

@@ -12,7 +12,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use crate::Limits;
 use crate::core::{Core, CoreSettings};
 use crate::guid::Prefix;
-use crate::network::{Network, OpenError, Sockets};
+use crate::network::{Discovery, Network, OpenError, Range, Sockets};
 
 /// How long the thread sleeps at most, so that an end is noticed.
 const MAX_SLEEP: Duration = Duration::from_millis(100);
@@ -43,15 +43,18 @@ impl Participant {
     pub fn new(
         domain: u32,
         network: Network,
+        discovery: &Discovery,
         name: &str,
         user_data: &[u8],
     ) -> Result<Self, OpenError> {
-        let sockets = Sockets::open(domain, network)?;
+        let sockets = Sockets::open(domain, network, discovery.range)?;
         let settings = CoreSettings {
             prefix: new_prefix(),
             domain,
             unicast: sockets.address,
-            announce_to: sockets.announce_to(domain),
+            announce_to: sockets.announce_to(domain, discovery),
+            has_multicast: sockets.multicast().is_some(),
+            is_alone: discovery.range == Range::Off,
             name: name.to_string(),
             user_data: user_data.to_vec(),
             is_loopback_only: sockets.is_loopback_only,
@@ -79,6 +82,12 @@ impl Participant {
             shared,
             _resource: Resource::new(|| "the node of ROS 2".to_owned()),
         })
+    }
+
+    /// Why announcements by multicast are neither sent nor received, though they should be.
+    pub fn multicast_error(&self) -> Option<String> {
+        let error = self.shared.sockets.multicast.as_ref().err();
+        error.map(std::io::Error::to_string)
     }
 
     /// Does something with the core, and sends what that leads to.
@@ -128,8 +137,9 @@ impl Shared {
             let sleep = core.tick(time).saturating_sub(time).min(MAX_SLEEP);
             self.send(core);
             self.sleep(sleep);
-            for socket in [&self.sockets.unicast, &self.sockets.multicast] {
-                self.read(socket, &mut buffer);
+            self.read(&self.sockets.unicast, &mut buffer);
+            if let Some(multicast) = self.sockets.multicast() {
+                self.read(multicast, &mut buffer);
             }
         }
     }
@@ -140,10 +150,11 @@ impl Shared {
 
     /// Sleeps until something can be read.
     fn sleep(&self, time: Duration) {
-        let mut sockets = [
-            PollFd::new(&self.sockets.unicast, PollFlags::IN),
-            PollFd::new(&self.sockets.multicast, PollFlags::IN),
-        ];
+        let sockets = [&self.sockets.unicast].into_iter();
+        let sockets = sockets.chain(self.sockets.multicast());
+        let mut sockets: Vec<_> = sockets
+            .map(|socket| PollFd::new(socket, PollFlags::IN))
+            .collect();
         let timeout = Timespec {
             tv_sec: time.as_secs() as i64,
             tv_nsec: i64::from(time.subsec_nanos()),

@@ -44,6 +44,9 @@ impl Core {
         if data.inline.status & 3 != 0 || data.is_key {
             return self.remove_peer(sender.prefix);
         }
+        if self.settings.is_alone {
+            return;
+        }
         let Some(described) =
             ParticipantData::parse(data.payload).filter(|data| data.prefix == sender.prefix)
         else {
@@ -158,7 +161,7 @@ impl Core {
         message.data(&head, &key.payload());
         let bytes = message.finish();
         let peers = self.peers.values().map(|peer| peer.metatraffic);
-        let places: Vec<SocketAddrV4> = peers.chain([self.multicast()]).collect();
+        let places: Vec<SocketAddrV4> = peers.chain(self.multicast()).collect();
         self.outgoing
             .extend(places.into_iter().map(|to| crate::Datagram {
                 to,

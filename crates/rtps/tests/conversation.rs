@@ -33,6 +33,8 @@ impl World {
                 domain: 0,
                 unicast: address(index),
                 announce_to: (0..count).map(address).collect(),
+                has_multicast: true,
+                is_alone: false,
                 name: String::new(),
                 user_data: Vec::new(),
                 is_loopback_only: true,

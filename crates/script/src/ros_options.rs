@@ -18,6 +18,11 @@ pub struct RosOptions {
     pub needs_master: bool,
     /// The domain of ROS 2, as ROS_DOMAIN_ID states it: a number from 0 to 232; empty for 0.
     pub domain: String,
+    /// Which nodes of ROS 2 are looked for, as ROS_AUTOMATIC_DISCOVERY_RANGE states it: `SUBNET`, `LOCALHOST`, `OFF`; empty for `SUBNET`. Without
+    /// `network` all but `OFF` is this machine.
+    pub discovery_range: String,
+    /// Machines where nodes of ROS 2 are looked for without multicast, as ROS_STATIC_PEERS states them: addresses or names with `;` between them.
+    pub static_peers: String,
     /// Where the names of the node of ROS 2 belong; empty for none.
     pub namespace: String,
 }

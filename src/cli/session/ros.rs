@@ -43,6 +43,17 @@ pub(in crate::cli) struct RosArgs {
     /// Domain of ROS 2
     #[arg(long, hide = true, env = "ROS_DOMAIN_ID", default_value = "")]
     ros_domain_id: String,
+    /// Which nodes of ROS 2 are looked for
+    #[arg(
+        long,
+        hide = true,
+        env = "ROS_AUTOMATIC_DISCOVERY_RANGE",
+        default_value = ""
+    )]
+    ros_automatic_discovery_range: String,
+    /// Machines with nodes of ROS 2 that multicast does not reach
+    #[arg(long, hide = true, env = "ROS_STATIC_PEERS", default_value = "")]
+    ros_static_peers: String,
     /// Namespace of the nodes
     #[arg(long, hide = true, env = "ROS_NAMESPACE", default_value = "")]
     ros_namespace: String,
@@ -131,6 +142,8 @@ function sysCall_sensing() lockstep.afterStep(topics, timeout) end
             master: self.ros_master_uri.clone(),
             needs_master: self.ros_needs_master,
             domain: self.ros_domain_id.clone(),
+            discovery_range: self.ros_automatic_discovery_range.clone(),
+            static_peers: self.ros_static_peers.clone(),
             namespace: self.ros_namespace.clone(),
         }
     }

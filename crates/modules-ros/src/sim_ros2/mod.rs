@@ -4,6 +4,7 @@
 //! needs it. Callbacks run at the start of each iteration of the loop, or while a script waits for an answer.
 
 mod actions;
+mod discovery;
 mod endpoint;
 mod graph;
 mod images;

@@ -16,8 +16,9 @@ use super::parameters::Parameters;
 use super::rosout::{self, RosOut};
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
-use super::{ApiError, Cx, Result, interfaces};
+use super::{ApiError, Cx, Result, discovery, interfaces};
 use crate::ros_entities::Entities;
+use script::log::verbosity;
 use script::{Host, RosOptions};
 
 /// The state of the module.
@@ -180,11 +181,14 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     let mut participant = None;
     let tape = cx.permissions().tape().clone();
     let made = tape.input("a node of ROS 2", || {
-        let made = Participant::new(domain, network, &name, b"enclave=/;");
-        participant = Some(made.map_err(|error| error.to_string())?);
-        Ok(())
+        let (made, warnings) = participant_of(options, domain, network, &name)?;
+        participant = Some(made);
+        Ok(warnings)
     });
-    made?.map_err(|error: String| ApiError::Other(format!("ROS 2: {error}")))?;
+    let warnings = made?.map_err(|error: String| ApiError::Other(format!("ROS 2: {error}")))?;
+    for warning in warnings {
+        cx.env().log(verbosity::SCRIPT_WARNINGS, &warning);
+    }
     let running = Rc::new(Running {
         participant,
         tape,
@@ -198,6 +202,24 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     let services = ParameterServices::new(cx, &running)?;
     *node.parameter_services.borrow_mut() = Some(Rc::new(services));
     Ok(running)
+}
+
+/// A participant of the domain, and what the user should know of it.
+fn participant_of(
+    options: &RosOptions,
+    domain: u32,
+    network: Network,
+    name: &str,
+) -> std::result::Result<(Participant, Vec<String>), String> {
+    let (discovery, mut warnings) = discovery::discovery(options)?;
+    let made = Participant::new(domain, network, &discovery, name, b"enclave=/;");
+    let participant = made.map_err(|error| error.to_string())?;
+    if let Some(error) = participant.multicast_error() {
+        warnings.push(format!(
+            "ROS 2: there is no multicast ({error}): nodes are found on this machine and at ROS_STATIC_PEERS"
+        ));
+    }
+    Ok((participant, warnings))
 }
 
 /// Adds something of the calling script. Returns its handle.

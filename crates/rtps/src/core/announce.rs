@@ -42,18 +42,19 @@ impl Core {
                 ANNOUNCE_PERIOD
             };
         let bytes = self.announcement(None);
-        let places = [vec![self.multicast()], self.settings.announce_to.clone()].concat();
-        self.outgoing.extend(places.into_iter().map(|to| Datagram {
+        let unicast = self.settings.announce_to.iter().copied();
+        let places = self.multicast().into_iter().chain(unicast);
+        self.outgoing.extend(places.map(|to| Datagram {
             to,
             bytes: bytes.clone(),
         }));
     }
 
-    pub(crate) fn multicast(&self) -> SocketAddrV4 {
-        SocketAddrV4::new(
-            MULTICAST,
-            u16::try_from(multicast_port(self.settings.domain)).unwrap_or(u16::MAX),
-        )
+    /// Where everybody is reached, if that is used.
+    pub(crate) fn multicast(&self) -> Option<SocketAddrV4> {
+        let port = u16::try_from(multicast_port(self.settings.domain)).ok()?;
+        let is_used = self.settings.has_multicast;
+        is_used.then(|| SocketAddrV4::new(MULTICAST, port))
     }
 
     pub(crate) fn description(&self) -> Vec<u8> {
