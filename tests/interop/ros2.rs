@@ -42,3 +42,10 @@ fn fifty_topics_with_cyclone_dds() {
 fn static_peers_with_cyclone_dds() {
     check("ros2_static_peers.py");
 }
+
+/// Of all datagrams, of discovery too, fifteen of a hundred are lost in each direction.
+#[test]
+#[cfg(target_os = "linux")]
+fn lost_datagrams_between_cyclone_dds_and_us() {
+    check("ros2_lossy.py");
+}
