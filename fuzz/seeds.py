@@ -253,7 +253,7 @@ def python_message():
 
 
 def view_request():
-    text = (ROOT.parent / "src" / "view" / "request.rs").read_text()
+    text = (ROOT.parent / "crates" / "view" / "src" / "request" / "tests.rs").read_text()
     for number, request in enumerate(re.findall(r"\{\\?\"[^`\n]*?\}", text)):
         write(f"view_request/{number}", request.replace('\\"', '"').encode())
 
