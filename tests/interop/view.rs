@@ -29,6 +29,16 @@ fn values_of_objects_in_a_browser() {
 }
 
 #[test]
+fn curves_of_live_runs_in_a_browser() {
+    check_in_browser("view_plots.py");
+}
+
+#[test]
+fn joints_of_models_in_a_browser() {
+    check_in_browser("view_joints.py");
+}
+
+#[test]
 fn frames_and_notices_in_a_browser() {
     check_in_browser_with("view_frames.py", &[&old_scene("view_frames.ttt")]);
 }

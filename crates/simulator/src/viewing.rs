@@ -128,6 +128,20 @@ impl Simulator {
         self.copied(|sim| property_rows(sim, handle))
     }
 
+    /// The value of a property now.
+    ///
+    /// # Errors
+    /// When there is nothing with that handle, or it has no such property that can be read.
+    pub fn property_value(&self, handle: i64, name: &str) -> Result<Data, ApiError> {
+        let sandbox = self.detached(ScriptType::Sandbox);
+        self.copied(|sim| {
+            let target = sim.property_target(handle, &sandbox)?;
+            let info = sim.property_info(&target, name);
+            let (ty, _) = info.ok_or(ApiError::UnknownProperty)?;
+            sim.read_property(&target, name, ty)
+        })
+    }
+
     /// The type of a property.
     ///
     /// # Errors

@@ -18,6 +18,7 @@ mod perform;
 mod question;
 pub mod recording;
 pub(crate) mod request;
+mod sample;
 mod server;
 mod viewer;
 

@@ -10,7 +10,7 @@ export class LiveSource {
     this.count = 0;
     this.failures = 0;
     this.pending = new Map();
-    this.standing = new Map(); // requests that the simulator must know again after a pause: inspect, watch, show
+    this.standing = new Map(); // requests that the simulator must know again after a pause: inspect, watch, show, sample
   }
 
   start() {
@@ -55,7 +55,7 @@ export class LiveSource {
 
   /** Asks the simulator. @param {string} action @param {Object<string, any>} [members] @returns {Promise<any>} */
   request(action, members = {}) {
-    if (['inspect', 'watch', 'show'].includes(action)) this.standing.set(action, members);
+    if (['inspect', 'watch', 'show', 'sample'].includes(action)) this.standing.set(action, members);
     return this._send(action, members);
   }
 

@@ -10,6 +10,7 @@ import { DialogsPane } from './panes/dialogs.js';
 import { Help, keysOf } from './panes/help.js';
 import { InspectorPane } from './panes/inspector.js';
 import { Overlay } from './panes/overlay.js';
+import { Plots } from './panes/plots.js';
 import { Questions } from './panes/questions.js';
 import { ScriptPane } from './panes/script.js';
 import { SensorImages } from './panes/sensor_images.js';
@@ -20,6 +21,7 @@ import { WindowsPane } from './panes/windows.js';
 import { Controls } from './render/controls.js';
 import { Renderer } from './render/renderer.js';
 import { ReplaySource } from './replay.js';
+import { Samples } from './samples.js';
 import { poseIn, Store } from './store.js';
 
 const at = (id) => document.getElementById(id);
@@ -30,6 +32,7 @@ class Page {
     Object.assign(this, { store, source });
     this.renderer = this._renderer();
     this.sensorImages = new SensorImages(source);
+    this.samples = new Samples(this);
     this.layout = new Layout(this);
     this.shelf = new Shelf(this);
     this.tree = new TreePane(at('tree-pane'), this);
@@ -37,6 +40,7 @@ class Page {
     this.console = new ConsolePane(at('console'), this);
     this.script = new ScriptPane(at('script'), this);
     this.curves = new CurvesPane(at('curves'), this);
+    this.plots = new Plots(this);
     this.bar = new Bar(at('bar'), this);
     this.overlay = new Overlay(this);
     this.windows = new WindowsPane(at('windows'), this);

@@ -51,9 +51,10 @@ export class Store {
     this.changed = new Set();
     this.moved = new Set();
     this.changedDrawings = new Set();
+    this.samples = []; // messages
   }
 
-  /** Calls a function after changes of a topic: scene, timeline, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, connection. */
+  /** Calls a function after changes of a topic: scene, timeline, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, samples, connection. */
   on(topic, listener) {
     if (!this.listeners.has(topic)) this.listeners.set(topic, new Set());
     this.listeners.get(topic).add(listener);
@@ -62,11 +63,11 @@ export class Store {
   /** Calls the listeners of everything that changed since the last time. */
   flush() {
     if (!this.dirty.size) return;
-    const { dirty, changed, moved, changedDrawings } = this;
+    const { dirty, changed, moved, changedDrawings, samples } = this;
     this._marks();
-    for (const topic of ['connection', 'scene', 'timeline', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties']) {
+    for (const topic of ['connection', 'scene', 'timeline', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties', 'samples']) {
       if (!dirty.has(topic)) continue;
-      const detail = { objects: changed, poses: moved, drawings: changedDrawings }[topic];
+      const detail = { objects: changed, poses: moved, drawings: changedDrawings, samples }[topic];
       this.listeners.get(topic)?.forEach((listener) => listener(detail));
     }
   }
@@ -87,11 +88,17 @@ export class Store {
     if (message.type === 'snapshot') this._snapshot(message);
     else if (message.type === 'update') this._update(message);
     else if (message.type === 'properties') this._properties(message);
+    else if (message.type === 'samples') this._sampled(message);
   }
 
   _properties({ handle, values }) {
     this.properties = { handle, values };
     this.dirty.add('properties');
+  }
+
+  _sampled(message) {
+    this.samples.push(message);
+    this.dirty.add('samples');
   }
 
   _snapshot(message) {

@@ -3,14 +3,13 @@
 use serde_json::{Value, json};
 
 use super::values::to_json;
+use crate::sample::WORLD_POSE;
 use geometry::pose::pose_to_array;
 use scene::Handle;
 use scene::joint::JointType;
 use simulator::PropertyRow;
 use simulator::Simulator;
 
-/// The row that is no property: as the pose in the world is called in recordings.
-const WORLD_POSE: &str = "absolutePose";
 /// Units of properties that have one: name, unit.
 const UNITS: &str = include_str!("units.tsv");
 

@@ -42,7 +42,7 @@ pub(crate) fn perform(
                 .collect();
             sim.scene_mut().select(&handles);
         }
-        Action::Inspect(None) | Action::Watch(_) | Action::Show { .. } => {}
+        Action::Inspect(None) | Action::Watch(_) | Action::Show { .. } | Action::Sample(_) => {}
         Action::Inspect(Some(handle)) => {
             let rows = rows(sim, *handle)?.into_iter().map(|(_, row)| row);
             return Ok(rows.collect());

@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::sample::Following;
 use capture::{Input, Recorded};
 use serde_json::{Map, Value, json};
 
@@ -42,6 +43,8 @@ pub(crate) enum Action {
     Show {
         contacts: bool,
     },
+    /// Numbers of properties at every step.
+    Sample(Following),
     Graph(i64),
     Ui {
         window: Value,
@@ -107,6 +110,7 @@ impl Action {
             Self::Configure(handle) => json!({ "do": "configure", "handle": handle }),
             Self::Watch(handles) => json!({ "do": "watch", "handles": handles }),
             Self::Show { contacts } => json!({ "do": "show", "contacts": contacts }),
+            Self::Sample(following) => following.to_json(),
             Self::Graph(handle) => json!({ "do": "graph", "handle": handle }),
             Self::Ui {
                 window,
@@ -128,6 +132,7 @@ impl Action {
                 | Self::Script(_)
                 | Self::Watch(_)
                 | Self::Show { .. }
+                | Self::Sample(_)
                 | Self::Graph(_)
         )
     }
@@ -193,6 +198,7 @@ fn action(members: &Members) -> Result<Action, String> {
         "show" => Action::Show {
             contacts: flag(members, "contacts")?,
         },
+        "sample" => Action::Sample(Following::read(members)?),
         "graph" => Action::Graph(handle(members)?),
         "ui" => {
             let member = |name: &str| members.get(name).cloned().unwrap_or(Value::Null);

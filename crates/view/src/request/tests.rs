@@ -90,6 +90,7 @@ fn requests_come_back_from_a_capture() {
         r#"{"id":1,"do":"configure","handle":7}"#,
         r#"{"id":1,"do":"watch","handles":[]}"#,
         r#"{"id":1,"do":"show","contacts":true}"#,
+        r#"{"id":1,"do":"sample","key":3,"items":[{"handle":7,"name":"pose","index":2},{"handle":7,"name":"mass","index":null}]}"#,
         r#"{"id":1,"do":"graph","handle":7}"#,
         r#"{"id":1,"do":"ui","window":1,"widget":2,"input":{"type":"click"}}"#,
         r#"{"id":1,"do":"run","code":"x = 1"}"#,

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use super::mirror::Mirror;
 use super::request::Action;
+use super::sample::{Followed, Samples};
 pub use assets::page_file;
 pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
@@ -29,6 +30,7 @@ pub(crate) type PageId = u64;
 pub(crate) struct Shared {
     mirror: Mutex<Mirror>,
     demand: Mutex<Demand>,
+    samples: Mutex<Samples>,
     requests: Mutex<VecDeque<Pending>>,
     arrived: Condvar,
     is_read_only: bool,
@@ -50,6 +52,8 @@ pub(crate) struct Shared {
 pub(crate) struct Demand {
     pages: BTreeMap<PageId, PageDemand>,
     opened: PageId,
+    /// What any page follows, sorted; nothing if there is nothing.
+    followed: Option<Arc<[Followed]>>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -57,6 +61,18 @@ pub(crate) struct PageDemand {
     pub sensors: BTreeSet<i64>,
     pub inspected: Option<i64>,
     pub contacts: bool,
+    pub followed: Vec<Followed>,
+}
+
+impl Demand {
+    fn gather_followed(&mut self) {
+        let all: BTreeSet<&Followed> = self
+            .pages
+            .values()
+            .flat_map(|page| &page.followed)
+            .collect();
+        self.followed = (!all.is_empty()).then(|| all.into_iter().cloned().collect());
+    }
 }
 
 /// What the simulation's thread is busy with; numbered, so that pages are told once.
@@ -145,6 +161,15 @@ impl Shared {
         (all, inspected)
     }
 
+    /// The numbers that pages follow, if they follow any.
+    pub(crate) fn followed(&self) -> Option<Arc<[Followed]>> {
+        lock(&self.demand).followed.clone()
+    }
+
+    pub(crate) fn samples(&self) -> MutexGuard<'_, Samples> {
+        lock(&self.samples)
+    }
+
     /// The next request; waits for one up to a time limit.
     pub(crate) fn next_request(&self, timeout: Duration) -> Option<Pending> {
         let mut requests = lock(&self.requests);
@@ -221,12 +246,16 @@ impl Shared {
     }
 
     fn change_demand(&self, page: PageId, change: impl FnOnce(&mut PageDemand)) {
-        if let Some(demand) = lock(&self.demand).pages.get_mut(&page) {
-            change(demand);
+        let mut demand = lock(&self.demand);
+        if let Some(wanted) = demand.pages.get_mut(&page) {
+            change(wanted);
+            demand.gather_followed();
         }
     }
 
     fn remove_page(&self, page: PageId) {
-        lock(&self.demand).pages.remove(&page);
+        let mut demand = lock(&self.demand);
+        demand.pages.remove(&page);
+        demand.gather_followed();
     }
 }

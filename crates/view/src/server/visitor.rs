@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::{PageId, Pending, Shared, lock, reply};
 use crate::mirror::{Message, Revision};
 use crate::request::{Action, Request};
+use crate::sample::Following;
 use io::{SiteMessage, Visitor};
 
 /// A connected page.
@@ -20,6 +21,8 @@ pub(super) struct Page {
     inspected: Option<(i64, Revision)>,
     /// The last contacts, while they are shown.
     contacts: Option<Revision>,
+    /// What it follows, and how many steps it has seen.
+    following: (Following, u64),
     replies: Arc<Mutex<VecDeque<String>>>,
     /// The last change of what the simulation is busy with.
     busy: u64,
@@ -35,6 +38,7 @@ impl Page {
             watched: BTreeMap::new(),
             inspected: None,
             contacts: None,
+            following: (Following::default(), 0),
             replies: Arc::default(),
             busy: 0,
         }
@@ -59,6 +63,13 @@ impl Page {
                 self.contacts = contacts.then_some(0);
                 self.shared
                     .change_demand(self.id, |demand| demand.contacts = *contacts);
+            }
+            Action::Sample(following) => {
+                // Before the simulation knows of it, so that no step is missed.
+                self.following = (following.clone(), self.shared.samples().taken());
+                let followed = following.items.clone();
+                self.shared
+                    .change_demand(self.id, |demand| demand.followed = followed);
             }
             Action::Inspect(handle) => {
                 let now = self.shared.mirror().revision();
@@ -89,6 +100,10 @@ impl Page {
             *seen = revision;
             messages.push(SiteMessage::Binary(contacts.to_vec()));
         }
+        let (following, seen) = &mut self.following;
+        let samples = self.shared.samples();
+        messages.extend(samples.message(following, *seen).map(SiteMessage::Text));
+        *seen = samples.taken();
         if let Some((handle, seen)) = &mut self.inspected
             && let Some((revision, rows)) = mirror.rows_since(*handle, *seen)
         {

@@ -17,6 +17,7 @@ use crate::perform::{perform, rows};
 use crate::question::ask;
 use crate::recording::Recording;
 use crate::request::Action;
+use crate::sample::Followed;
 use crate::server::{RecordedSite, Shared, ViewSite};
 use ::io::SiteServer;
 use simulator::Simulator;
@@ -63,7 +64,18 @@ pub struct Viewer {
     frame: Timer,
     images: Timer,
     values: Timer,
+    samples: Timer,
     images_shown: Images,
+    sampled: Sampled,
+}
+
+/// Of what numbers for pages were read last.
+#[derive(Default)]
+struct Sampled {
+    moment: Option<(u64, u64)>,
+    followed: Option<Arc<[Followed]>>,
+    /// Pages do not have them yet.
+    is_new: bool,
 }
 
 /// Says when something is due again.
@@ -109,7 +121,9 @@ impl Viewer {
             frame: Timer::default(),
             images: Timer::default(),
             values: Timer::default(),
+            samples: Timer::default(),
             images_shown: Images::default(),
+            sampled: Sampled::default(),
         })
     }
 
@@ -162,11 +176,40 @@ impl Viewer {
                 break;
             }
         }
+        self.sample(sim);
         if self.frame.is_due(wall_clock::now(), FRAME) || answered {
             self.show(sim);
         }
         if answered {
             self.server.waker().wake();
+        }
+    }
+
+    /// Reads the numbers that pages follow, once for each step, and at once when they are others.
+    pub(crate) fn sample(&mut self, sim: &Simulator) {
+        let followed = self.shared.followed();
+        let moment = Some((sim.steps(), sim.time().to_bits()));
+        if self.sampled.followed == followed
+            && (followed.is_none() || self.sampled.moment == moment)
+        {
+            return self.sample_again(sim);
+        }
+        match &followed {
+            Some(items) => self.shared.samples().take(sim, items),
+            None => self.shared.samples().forget(),
+        }
+        let is_new = followed.is_some();
+        self.sampled = Sampled {
+            moment,
+            followed,
+            is_new,
+        };
+    }
+
+    /// The same now and then while there are no steps.
+    fn sample_again(&mut self, sim: &Simulator) {
+        if self.sampled.followed.is_some() && self.samples.is_due(wall_clock::now(), VALUES) {
+            self.sampled.is_new |= self.shared.samples().take_again(sim);
         }
     }
 
@@ -197,14 +240,14 @@ impl Viewer {
     }
 
     /// Pages get what was found.
-    fn publish(&self, seen: Observation, windows: Option<ObservedWindows>, found: Demanded) {
+    fn publish(&mut self, seen: Observation, windows: Option<ObservedWindows>, found: Demanded) {
         let changed = {
             let mut mirror = self.shared.mirror();
             let mut changed = mirror.apply(seen);
             changed |= windows.is_some_and(|windows| mirror.apply_windows(windows));
             mirror.apply_demanded(found) || changed
         };
-        if changed {
+        if std::mem::take(&mut self.sampled.is_new) || changed {
             self.server.waker().wake();
         }
     }

@@ -1,5 +1,6 @@
 // Curves on a canvas: of properties, graphs, and plots of scripts.
 import { el, iconButton } from '../dom.js';
+import { csv, download, picture } from './exports.js';
 
 const MARGIN = { left: 52, right: 10, top: 8, bottom: 22 };
 
@@ -165,14 +166,17 @@ export class Sparkline {
 
 const COLORS = ['#0969da', '#cf4a22', '#1a7f37', '#8250df', '#bf8700', '#0e7c86'];
 
-/** The pane of curves: of graphs, and of properties over a recording. */
+/** The pane of curves: of graphs, and of properties over a run or a recording. */
 export class CurvesPane {
   constructor(pane, page) {
     Object.assign(this, { page, pane });
     this.curves = [];
     this.canvas = el('canvas', { class: 'curves', role: 'img', 'aria-label': 'Curves' });
     this.legend = el('div', { class: 'legend' });
-    pane.append(el('div', { class: 'pane-tools' }, this.legend), this.canvas);
+    this.hint = el('p', { class: 'hint', hidden: true }, 'Drop values here.');
+    const tool = (text, title, action) => el('button', { type: 'button', class: 'text-button', title, onclick: action }, text);
+    this.tools = el('div', { class: 'curve-tools' }, tool('CSV', 'Save the curves as a table', () => this._save('csv')), tool('SVG', 'Save the curves as a picture', () => this._save('svg')), tool('Clear', 'Remove all curves', () => this.clear()));
+    pane.append(el('div', { class: 'pane-tools' }, this.legend, this.tools), this.canvas, this.hint);
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     this.canvas.addEventListener('pointerdown', (event) => this._seek(event));
     page.store.on('scene', () => this.draw());
@@ -181,20 +185,43 @@ export class CurvesPane {
   /** @param {{name: string, x: number[], y: number[]}} curve */
   add(curve) {
     this.remove(curve.name);
-    this.curves.push({ ...curve, color: COLORS[this.curves.length % COLORS.length] });
+    const free = COLORS.find((color) => this.curves.every((each) => each.color !== color));
+    const added = { ...curve, color: free ?? COLORS[this.curves.length % COLORS.length] };
+    this.curves.push(added);
     this._legend();
+    return added;
+  }
+
+  clear() {
+    [...this.curves].forEach(({ name }) => this.remove(name));
+  }
+
+  /** Something is dragged that can be dropped here. */
+  await(comes) {
+    this.pane.classList.toggle('awaits', comes);
+    this.hint.hidden = !comes || this.curves.length > 0;
+    this.canvas.hidden = !this.hint.hidden;
+    this.page.showPanel('curves', comes || this.curves.length > 0);
+  }
+
+  _save(form) {
+    const name = (this.page.store.scene.name || 'curves').replace(/\.\w+$/, '');
+    if (form === 'csv') download(`${name}.csv`, 'text/csv', csv(this.curves));
+    else download(`${name}.svg`, 'image/svg+xml', picture(this.curves, { extent, ticks, label }));
   }
 
   remove(name) {
+    const gone = this.curves.filter((curve) => curve.name === name);
     this.curves = this.curves.filter((curve) => curve.name !== name);
-    this._legend();
+    if (gone.length) this._legend();
+    gone.forEach((curve) => this.page.plots?.removed(curve));
   }
 
   _legend() {
-    this.legend.replaceChildren(...this.curves.map(({ name, color }) => {
+    this.legend.replaceChildren(...this.curves.map(({ name, color, unit }) => {
       const mark = el('span', { class: 'legend-mark', 'aria-hidden': 'true' });
       mark.style.background = color;
-      return el('span', { class: 'legend-entry' }, mark, name, iconButton('close', `Remove ${name}`, () => this.remove(name)));
+      return el('span', { class: 'legend-entry' }, mark, unit ? `${name} (${unit})` : name, iconButton('close', `Remove ${name}`, () => this.remove(name)));
     }));
     this.page.showPanel('curves', this.curves.length > 0);
     this.draw();

@@ -1,9 +1,11 @@
 // Properties of the selected object: grouped, live, editable where a script could write them.
 import { copyText, el, iconButton, setText } from '../dom.js';
 import { Sparkline } from './curves.js';
-import { arranged, FOLDED, madeRows, TITLES } from './inspect/essentials.js';
+import { arranged, FOLDED, MADE, madeRows, TITLES } from './inspect/essentials.js';
+import { JointsPane } from './inspect/joints.js';
 import { PoseBlock } from './inspect/pose.js';
 import { shownUnit } from './inspect/units.js';
+import { numbersOf } from './plots.js';
 import { drawImage } from './sensor_images.js';
 import { editorOf, formatted } from './values.js';
 
@@ -36,6 +38,7 @@ export class InspectorPane {
     this.hint = el('p', { class: 'hint' });
     this.picture = el('canvas', { class: 'sensor-image', hidden: true, role: 'img', 'aria-label': 'Image of the vision sensor' });
     this.sparkline = new Sparkline();
+    this.joints = new JointsPane(page);
     pane.append(el('div', { class: 'inspected-head' }, this.title, this.tools), this.kind, this.picture, el('div', { class: 'pane-tools' }, this.search), this.hint, this.list, this.sparkline.element);
     this.store.on('selection', () => this._selected());
     this.store.on('objects', (changed) => changed.has(this.handle) && this._head());
@@ -111,7 +114,8 @@ export class InspectorPane {
     const { main, groups } = arranged(rows, object);
     this.pose = this._poseBlock(rows, object);
     const first = main.length ? [el('section', { class: 'group essentials', 'aria-label': 'What matters' }, ...main.map((row) => this._row(row)))] : [];
-    this.list.replaceChildren(...(this.pose ? [this.pose.element] : []), ...first, ...groups.map(([name, members]) => this._group(name, members)));
+    this.list.replaceChildren(...(this.pose ? [this.pose.element] : []), ...first, this.joints.element, ...groups.map(([name, members]) => this._group(name, members)));
+    this.joints.show(this.handle);
     this.hint.hidden = rows.length > 0;
     setText(this.hint, rows.length ? '' : 'It has no properties.');
     this._filter();
@@ -128,6 +132,7 @@ export class InspectorPane {
       set: (value) => this.page.ask('set', { handle, name: 'pose', value }),
       lua: (row) => luaOf(row, handle, this.store.path(handle)),
       again: () => this._show(this.shown),
+      curve: of.absolutePose && this.page.plots.button(handle, { ...of.absolutePose, label: 'position', unit: 'm' }),
     }, this.pose?.entered);
   }
 
@@ -150,10 +155,15 @@ export class InspectorPane {
     const element = el('div', { class: `property${wide ? ' wide' : ''}${row.inert ? ' inert' : ''}`, 'data-name': row.name }, name, shown, unit, this._copy(row, label));
     const entry = { row, editor, shown, element, history: [] };
     if (typeof row.value === 'number') this._watchHistory(element, entry);
-    const hasCurve = typeof row.value === 'number' || row.name === 'absolutePose';
-    if (hasCurve && !this.page.source.live) element.append(iconButton('curve', 'Curve over the recording', () => this.page.showCurve(this.handle, row), { class: 'icon-button copy' }));
+    if (this._hasCurve(row)) element.append(this.page.plots.button(this.handle, row));
+    if (this._hasCurve(row) && !editor) this.page.plots.dragsFrom(name, this.handle, row);
     this.rows.set(row.name, entry);
     return element;
+  }
+
+  /** Of recordings only numbers are known over time. */
+  _hasCurve(row) {
+    return !MADE.has(row.name) && (this.page.source.live ? numbersOf(row).length > 0 : typeof row.value === 'number');
   }
 
   _copy(row, label) {

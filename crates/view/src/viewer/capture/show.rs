@@ -69,6 +69,7 @@ impl<L: Loop> CaptureViewer<L> {
         };
         let windows = self.viewer.windows.observe_all(sim);
         let found = self.viewer.find_demanded(sim);
+        self.viewer.sample(sim);
         self.viewer.publish(seen, windows, found);
     }
 

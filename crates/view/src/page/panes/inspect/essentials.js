@@ -30,6 +30,9 @@ const LAST = ['data', 'model', 'mouse', 'engine'];
 export const TITLES = { engine: 'settings of physics engines', mouse: 'moving by mouse', model: 'model' };
 export const FOLDED = new Set(LAST);
 
+/** Names of rows that are no properties. */
+export const MADE = new Set(['size', 'distance', 'applyColor.diffuse']);
+
 /** Rows that the page makes from others. @param {Map<string, any>} rows by name @param {any} object */
 export function madeRows(rows, object) {
   const row = (name, type, value, unit = '', writable = false) => ({ name, type, value, unit, writable, group: 'shape', label: name });

@@ -25,7 +25,7 @@ function choice(label, name, usual, options, changed) {
 export class PoseBlock {
   /**
    * @param {{pose?: any, absolutePose?: any}} rows of the inspector, as they change
-   * @param {{isRoot: boolean, writable: boolean, set: function(number[]): Promise<any>, lua: function(any): string, again: function(): void}} how `again`: angles are shown in another unit
+   * @param {{isRoot: boolean, writable: boolean, set: function(number[]): Promise<any>, lua: function(any): string, again: function(): void, curve?: HTMLElement}} how `again`: angles are shown in another unit
    * @param {any} entered the angles of the block before
    */
   constructor(rows, how, entered = null) {
@@ -36,7 +36,7 @@ export class PoseBlock {
     const frame = choice('Frame of the pose', 'pose frame', 'world', [['world', 'World'], ['parent', 'Parent']], () => this._build());
     const rotation = choice('Rotation as', 'pose rotation', 'euler', [['euler', 'Euler'], ['quaternion', 'Quaternion']], () => this._build());
     const copy = iconButton('copy', 'Copy the pose as Lua', () => copyText(how.lua(this._row())), { class: 'icon-button copy' });
-    this.element = el('section', { class: 'pose-block', 'aria-label': 'Pose' }, el('div', { class: 'pose-head' }, rows.pose ? frame : el('span', { class: 'label' }, 'World'), rotation, angles, copy), this.fields);
+    this.element = el('section', { class: 'pose-block', 'aria-label': 'Pose' }, el('div', { class: 'pose-head' }, rows.pose ? frame : el('span', { class: 'label' }, 'World'), rotation, angles, copy, how.curve), this.fields);
     this._build();
   }
 
