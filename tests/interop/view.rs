@@ -39,6 +39,11 @@ fn joints_of_models_in_a_browser() {
 }
 
 #[test]
+fn ways_to_look_at_a_scene_in_a_browser() {
+    check_in_browser("view_sights.py");
+}
+
+#[test]
 fn frames_and_notices_in_a_browser() {
     check_in_browser_with("view_frames.py", &[&old_scene("view_frames.ttt")]);
 }

@@ -6,7 +6,7 @@ import { THEMES } from './render/themes.js';
 
 const NARROW = 640; // pixels; below it panels cover the scene and are closed at first
 const OPTIONS = [
-  ['shadows', 'Shadows'], ['edges', 'Edges'], ['grid', 'Grid'], ['frames', 'Frames of all objects'], ['contacts', 'Contacts and forces'], ['hidden', 'Hidden objects'],
+  ['shadows', 'Shadows'], ['edges', 'Edges'], ['grid', 'Grid'], ['frames', 'Frames of all objects'], ['contacts', 'Contacts and forces'], ['torques', 'Forces of joints as colours'], ['trails', 'Paths of what is selected'], ['hidden', 'Hidden objects'],
 ];
 
 export class Layout {
@@ -83,7 +83,7 @@ export class Layout {
     });
     this.camera = el('select', { 'aria-label': 'Camera', onchange: () => page.useCamera(Number(this.camera.value)) });
     this._cameras();
-    const menu = el('div', { class: 'menu', role: 'dialog', 'aria-label': 'Options of the view', hidden: true }, el('label', { class: 'menu-row' }, 'Camera', this.camera), ...boxes, page.shelf.element);
+    const menu = el('div', { class: 'menu', role: 'dialog', 'aria-label': 'Options of the view', hidden: true }, el('label', { class: 'menu-row' }, 'Camera', this.camera), page.sights?.presets.element, ...boxes, page.shelf.element);
     document.getElementById('stage').append(menu);
     for (const [name] of OPTIONS) this._applyOption(name, this._option(name));
     return menu;
@@ -100,7 +100,7 @@ export class Layout {
 
   _applyOption(name, on) {
     const { renderer, source } = this.page;
-    if (!renderer) return;
+    if (!renderer || this.page.sights.set(name, on)) return;
     if (name === 'contacts') source.request('show', { contacts: on }).catch(() => {});
     else if (name === 'frames' || name === 'hidden') {
       renderer.view.options[name] = on;

@@ -15,6 +15,7 @@ import { Questions } from './panes/questions.js';
 import { ScriptPane } from './panes/script.js';
 import { SensorImages } from './panes/sensor_images.js';
 import { Shelf } from './panes/shelf.js';
+import { Sights } from './panes/sight/sights.js';
 import { TreePane } from './panes/tree.js';
 import { ViewsPane } from './panes/views.js';
 import { WindowsPane } from './panes/windows.js';
@@ -67,7 +68,9 @@ class Page {
   _listen(keys) {
     const actions = new Map(keys.flatMap((key) => key.keys.map((name) => [name, key.action])));
     addEventListener('keydown', (event) => this._key(event, actions));
-    if (this.renderer) this.controls = new Controls(this.renderer, { select: (hit, more) => this._clicked(hit, more), focus: (hit) => this._focused(hit), hover: (hit, x, y) => this.overlay.hover(hit, x, y), moved: () => (this.followed = null) });
+    const pointed = { select: (hit, more) => this._clicked(hit, more), focus: (hit) => this._focused(hit), hover: (hit, x, y) => this.overlay.hover(hit, x, y), moved: () => (this.followed = null) };
+    if (this.renderer) this.controls = new Controls(this.renderer, pointed);
+    if (this.renderer) this.sights = new Sights(this, pointed);
     this.store.on('scene', () => (document.title = this.store.scene.name ? `${this.store.scene.name} – Swanilda` : 'Swanilda'));
     this.store.on('poses', () => this._frameFirst());
   }
@@ -77,7 +80,7 @@ class Page {
     if ((event.key === ' ' || event.key === 'Enter') && event.target.closest?.('button, summary')) return;
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const action = actions.get(event.shiftKey ? `shift+${name}` : name) ?? actions.get(name);
-    if (!action || (event.key.startsWith('Arrow') && event.target !== at('scene'))) return;
+    if (!action || (event.key.startsWith('Arrow') && !event.target.matches?.('#scene, .second'))) return;
     event.preventDefault();
     action(event);
   }
@@ -98,6 +101,7 @@ class Page {
     if (!this.renderer || this.framed || !this.store.objects.size) return;
     this.framed = true;
     this.renderer.fit([], true);
+    this.sights.frameFirst();
   }
 
   /** @param {number} handle @param {boolean} more adds to what is selected, or takes it out */
@@ -110,6 +114,7 @@ class Page {
   }
 
   _clicked(hit, more) {
+    if (this.sights.measure.clicked(hit)) return;
     const handle = hit ? this._selectable(hit.handle) : -1;
     if (handle >= 0 || !more) this.select(handle, more);
   }
@@ -126,24 +131,30 @@ class Page {
     if (hit && hit.handle >= 0) this.fit([hit.handle]);
   }
 
+  /** The view that keys are about. */
+  get sight() {
+    return this.sights?.view ?? this.renderer;
+  }
+
   fit(handles) {
     this.followed = null;
-    this.renderer?.fit(handles);
+    this.sight?.fit(handles);
   }
 
   lookAlong(yaw, pitch) {
-    this.renderer.camera.turnTo(yaw, pitch);
+    this.sight.camera.turnTo(yaw, pitch);
     this.renderer.stale = true;
   }
 
   togglePerspective() {
-    this.renderer.camera.release();
-    this.renderer.camera.perspective = !this.renderer.camera.perspective;
+    const { camera } = this.sight;
+    camera.release();
+    camera.perspective = !camera.perspective;
     this.renderer.stale = true;
   }
 
   turn(event) {
-    const { camera, canvas } = this.renderer;
+    const { camera, canvas } = this.sight;
     const [x, y] = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (event.shiftKey) camera.pan(x * 40, y * 40, canvas.clientHeight, camera.distance);
     else camera.orbit(camera.focus, x * 0.1, -y * 0.1);
@@ -151,7 +162,7 @@ class Page {
   }
 
   zoom(factor) {
-    this.renderer.camera.zoom(this.renderer.camera.focus, factor);
+    this.sight.camera.zoom(this.sight.camera.focus, factor);
     this.renderer.stale = true;
   }
 
@@ -213,7 +224,7 @@ class Page {
   }
 
   escape() {
-    if (this.layout.closeOverlays()) return;
+    if (this.layout.closeOverlays() || this.sights?.measure.end()) return;
     this.select(-1, false);
   }
 
@@ -244,7 +255,8 @@ class Page {
     this.store.flush();
     if (this.renderer) {
       this._moveCamera();
-      if (this.renderer.frame(seconds)) this.views.draw(true);
+      this.sights.advance(seconds);
+      if (this.renderer.frame(seconds)) this.views.draw(true), this.sights.measure.place();
       this.overlay.frame();
     }
     requestAnimationFrame((next) => this.frame(next));

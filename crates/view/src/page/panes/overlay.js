@@ -16,7 +16,7 @@ export class Overlay {
     this.tip = el('div', { class: 'tip', role: 'tooltip', hidden: true });
     this.grid = el('span', { class: 'grid-size' });
     this.lines = AXES.map(([name, , kind]) => ({ line: svg('line', { class: kind }), label: svg('text', { class: kind, 'text-anchor': 'middle', dy: '0.35em' }, name) }));
-    this.axes = svg('svg', { class: 'axes', viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, role: 'img', 'aria-label': 'Directions of the axes' }, ...this.lines.flatMap(({ line, label }) => [line, label]));
+    this.axes = svg('svg', { class: 'axes', viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, role: 'group', 'aria-label': 'Directions of the axes' }, ...this.lines.flatMap(({ line, label }) => [line, label]));
     document.getElementById('overlay').append(this.axes, this.grid, this.tip);
     for (const topic of ['connection', 'scene', 'objects']) this.store.on(topic, () => this._notice());
     this._notice();

@@ -1,9 +1,11 @@
 // Drawing objects of scripts, contacts: things in the scene that are no objects.
+import { add, cross, length, normalized, scaled, sub } from '../maths.js';
 import { CopySet, LineSet, PointSet } from './gpu/sets.js';
 
 const COPIES = { trianglePoint: 'triangle', quadPoint: 'quad', discPoint: 'disc', cubePoint: 'box', spherePoint: 'ball' };
 const NEWTONS_PER_METRE = 200; // forces are drawn at this scale
 const NORMAL = 0.04; // metres
+const HEAD = 0.03; // the same: the largest head of an arrow
 
 export class Drawings {
   constructor(gl, store, slots, resources, view) {
@@ -68,8 +70,8 @@ export class Drawings {
     this.contacts.set(this.store.contacts.flatMap(({ point, normal, force }) => {
       const end = (v, scale) => point.map((x, i) => x + v[i] * scale);
       return [
-        { points: [...point, ...end(force, 1 / NEWTONS_PER_METRE)], color: [0.95, 0.45, 0.1], slot },
-        { points: [...point, ...end(normal, NORMAL)], color: [0.2, 0.6, 0.9], slot },
+        { points: arrow(point, end(force, 1 / NEWTONS_PER_METRE)), color: [0.95, 0.45, 0.1], slot },
+        { points: arrow(point, end(normal, NORMAL)), color: [0.2, 0.6, 0.9], slot },
       ];
     }));
   }
@@ -77,6 +79,18 @@ export class Drawings {
   of(Type, overlay) {
     return [...this.sets.values()].filter((entry) => entry.set instanceof Type && !!entry.overlay === overlay).map((entry) => entry.set);
   }
+}
+
+/** Lines of an arrow: the shaft and four lines of its head. */
+function arrow(from, to) {
+  const along = sub(to, from);
+  const size = Math.min(0.3 * length(along), HEAD);
+  if (size < 1e-6) return [];
+  const back = scaled(normalized(along), -size);
+  const side = scaled(normalized(cross(along, Math.abs(along[2]) < 0.9 * length(along) ? [0, 0, 1] : [1, 0, 0])), 0.4 * size);
+  const other = cross(normalized(along), side);
+  const heads = [side, scaled(side, -1), other, scaled(other, -1)].flatMap((out) => [...to, ...add(add(to, back), out)]);
+  return [...from, ...to, ...heads];
 }
 
 /** Lists of line ends, one list per item. */

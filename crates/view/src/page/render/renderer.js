@@ -43,6 +43,8 @@ export class Renderer {
     this.theme = THEMES.light;
     this.options = { shadows: true, edges: true, grid: true };
     this.hovered = -1;
+    this.before = []; // functions that draw other pictures before this one
+    this.overlaid = []; // lines that are seen through everything, of other parts of the page
     this.stale = true;
     this._connect();
   }
@@ -85,6 +87,7 @@ export class Renderer {
     this.resize();
     if (!moved && !this.stale) return false;
     this.stale = false;
+    this.before.forEach((draw) => draw());
     this._draw();
     return true;
   }
@@ -92,16 +95,24 @@ export class Renderer {
   /** What one of the scene's cameras sees, on another canvas; the picture on the page is drawn again after it. */
   drawThrough(object, pose, canvas) {
     if (!pose || this.gl.isContextLost()) return;
-    const { camera, matrices, canvas: own, surroundings } = this;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.max(Math.round(x), 1));
+    const camera = Object.assign(new Camera(), { distance: this.surroundings.sphere.radius });
+    camera.setFixed(pose, object);
+    this.drawWith(camera, canvas);
+    this._draw();
+  }
+
+  /** What a camera sees, on another canvas; the page's own picture has to be drawn after it. */
+  drawWith(camera, canvas) {
+    const { canvas: own } = this;
+    const kept = { camera: this.camera, matrices: this.matrices, canvas: own };
+    const ratio = own.width / Math.max(own.clientWidth, 1);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.max(Math.round(x * ratio), 1));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    this.camera = Object.assign(new Camera(), { distance: surroundings.sphere.radius });
-    this.camera.setFixed(pose, object);
-    this.canvas = { width: Math.min(width, own.width), height: Math.min(height, own.height), clientWidth: width };
+    this.camera = camera;
+    this.canvas = { width: Math.min(width, own.width), height: Math.min(height, own.height), clientWidth: canvas.clientWidth };
     this._draw();
     canvas.getContext('2d').drawImage(own, 0, own.height - this.canvas.height, this.canvas.width, this.canvas.height, 0, 0, width, height);
-    Object.assign(this, { camera, matrices, canvas: own });
-    this._draw();
+    Object.assign(this, kept);
   }
 
   _draw() {
@@ -233,7 +244,7 @@ export class Renderer {
 
   _lines(overlay = false) {
     const { gl, canvas } = this;
-    const lines = overlay ? [this.view.thickLines, this.drawings.contacts] : [this.view.lines];
+    const lines = overlay ? [this.view.thickLines, this.drawings.contacts, ...this.overlaid] : [this.view.lines];
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.disable(gl.CULL_FACE);

@@ -52,6 +52,12 @@ export class SceneView {
     this.objectsChanged(new Set(handles));
   }
 
+  /** Makes what is drawn of objects anew. @param {number[]} handles */
+  refresh(handles) {
+    handles.forEach((handle) => this._discard(handle));
+    this.rebuild(handles);
+  }
+
   selectionChanged() {
     const chosen = new Set(this.store.selection);
     const differ = [...chosen, ...this.chosen].filter((handle) => chosen.has(handle) !== this.chosen.has(handle));

@@ -12,13 +12,19 @@ export function decimal(x, unit = '') {
   return x.toFixed(unit.startsWith('°') ? 2 : 4);
 }
 
+/** The same where what is next to nothing is nothing, as in poses. */
+export const withoutNoise = (x, unit) => (Math.abs(x) < 5e-5 ? (0).toFixed(unit.startsWith('°') ? 2 : 4) : decimal(x, unit));
+
+/** As short as it can be, where there is little room. */
+const short = (x, unit) => withoutNoise(x, unit).replace(/(\.\d*?)0+(?=e|$)/, '$1').replace(/\.(?=e|$)/, '');
+
 /** How many steps at once: with Shift ten, with Alt a tenth. */
 const times = (event) => (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
 
 export class NumberField {
-  /** @param {{label: string, value: number, unit?: string, integer?: boolean, change: function(number): void}} how `value` and what `change` gets in the unit */
-  constructor({ label, value, unit, integer = false, change }) {
-    Object.assign(this, { ...shownUnit(unit), integer, change, value, pending: null, edited: false });
+  /** @param {{label: string, value: number, unit?: string, integer?: boolean, form?: function(number, string): string, change: function(number): void}} how `value` and what `change` gets in the unit */
+  constructor({ label, value, unit, integer = false, form = decimal, change }) {
+    Object.assign(this, { ...shownUnit(unit), integer, form, change, value, pending: null, edited: false });
     this.element = el('input', { type: 'text', class: 'value number', 'aria-label': label, spellcheck: 'false', inputmode: 'decimal' });
     const listen = (type, handler) => this.element.addEventListener(type, handler);
     listen('input', () => (this.edited = true));
@@ -37,7 +43,7 @@ export class NumberField {
 
   _write(value) {
     const shown = value * this.factor;
-    this.element.value = this.integer ? String(value) : typeof value === 'number' ? decimal(shown, this.unit) : '–';
+    this.element.value = this.integer ? String(value) : typeof value === 'number' ? this.form(shown, this.unit) : '–';
   }
 
   /** Back to what it is. */
@@ -126,7 +132,7 @@ export class NumberList {
   /** @param {{label: string, names?: string[], value: number[], unit?: string, integer?: boolean, change: function(number[]): void}} how */
   constructor({ label, names = ['x', 'y', 'z', 'w'], value, unit, integer, change }) {
     this.value = value;
-    this.fields = value.map((number, i) => new NumberField({ label: `${label} ${names[i]}`, value: number, unit, integer, change: (fresh) => change((this.value = this.value.map((x, k) => (k === i ? fresh : x)))) }));
+    this.fields = value.map((number, i) => new NumberField({ label: `${label} ${names[i]}`, value: number, unit, integer, form: short, change: (fresh) => change((this.value = this.value.map((x, k) => (k === i ? fresh : x)))) }));
     this.unit = this.fields[0].unit;
     this.element = el('div', { class: 'number-list' }, ...this.fields.map(({ element }) => element));
   }

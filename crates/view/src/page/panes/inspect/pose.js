@@ -3,7 +3,7 @@ import { copyText, el, iconButton } from '../../dom.js';
 import { poseProduct } from '../../maths.js';
 import { eulerAngles, inversePose, quaternionOf, sameRotation, unitQuaternion } from '../../rotation.js';
 import { remember, setting } from '../../settings.js';
-import { NumberField } from './number.js';
+import { NumberField, withoutNoise } from './number.js';
 import { chooseAngles, inDegrees } from './units.js';
 
 const POSITION = ['x', 'y', 'z'];
@@ -56,7 +56,7 @@ export class PoseBlock {
     const turning = this._isEuler ? EULER : QUATERNION;
     const names = [...POSITION.map((name) => [name, name]), ...turning];
     const values = this._values();
-    this.numbers = names.map(([, name], i) => new NumberField({ label: name, value: values[i], unit: i < 3 ? 'm' : this._isEuler ? 'rad' : '', change: (fresh) => this._changed(i, fresh) }));
+    this.numbers = names.map(([, name], i) => new NumberField({ label: name, value: values[i], unit: i < 3 ? 'm' : this._isEuler ? 'rad' : '', form: withoutNoise, change: (fresh) => this._changed(i, fresh) }));
     const cells = names.map(([shown], i) => this._cell(shown, this.numbers[i]));
     this.fields.replaceChildren(el('div', {}, ...cells.slice(0, 3)), el('div', {}, ...cells.slice(3)));
   }
