@@ -13,7 +13,7 @@ export class Samples {
    * @param {function(number[], (number | null)[][]): void} take times, and the numbers of each item
    */
   follow(who, items, take) {
-    if (!items.length && !this.wanted.has(who)) return;
+    if (!this.page.source.live || (!items.length && !this.wanted.has(who))) return;
     if (items.length) this.wanted.set(who, { items, take });
     else this.wanted.delete(who);
     this.key++;

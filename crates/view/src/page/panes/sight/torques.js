@@ -23,13 +23,14 @@ export class Torques {
   }
 
   show(shown) {
-    this.shown = shown;
-    this.legend.hidden = !shown;
+    this.shown = shown && this.page.source.live;
+    if (shown && !this.shown) this.page.overlay.say('A recording has no forces of joints.');
+    this.legend.hidden = !this.shown;
     this.handles = null;
     this.forces.clear();
     Object.assign(this.most, { revolute: 0, prismatic: 0 });
     this._follow();
-    if (!shown) this.page.renderer.view.refresh([...this.store.objects.values()].filter(({ objectType }) => objectType === 'joint').map(({ handle }) => handle));
+    if (!this.shown) this.page.renderer.view.refresh([...this.store.objects.values()].filter(({ objectType }) => objectType === 'joint').map(({ handle }) => handle));
     this._say();
   }
 
