@@ -4,8 +4,10 @@
 //! `cargo fuzz run mcp_message`
 #![no_main]
 
+use std::rc::Rc;
+
 use libfuzzer_sys::fuzz_target;
-use mcp::{About, Answer, Contents, NotFound, Resource, Service, Session, Template, Tool, parse};
+use mcp::{About, Answer, Contents, NotFound, Notify, Progress, Resource, Service, Session, Template, Tool, parse};
 use serde_json::{Value, json};
 
 struct Echo(Vec<Tool>);
@@ -19,7 +21,8 @@ impl Service for Echo {
         &self.0
     }
 
-    fn call(&mut self, _: &str, arguments: &Value) -> Answer {
+    fn call(&mut self, _: &str, arguments: &Value, progress: &Progress) -> Answer {
+        progress.report(1.0, None, String::new);
         assert!(arguments.is_object());
         Answer::text(arguments.to_string())
     }
@@ -57,13 +60,14 @@ fuzz_target!(|bytes: &[u8]| {
     };
     let tool = Tool { name: "echo", title: "Echo", description: String::new(), arguments: json!({}), reads_only: true };
     let mut service = Echo(vec![tool]);
+    let notify: Notify = Rc::new(|note| assert_eq!(note["method"], "notifications/progress"));
     for version in ["", "2025-03-26", "2025-06-18"] {
         let mut session = Session::default();
         if !version.is_empty() {
             let hello = json!({"jsonrpc": "2.0", "id": 0, "method": "initialize", "params": {"protocolVersion": version}});
-            session.answer(&mut service, parse(hello.to_string().as_bytes())).expect("an answer");
+            session.answer(&mut service, parse(hello.to_string().as_bytes()), &notify).expect("an answer");
         }
-        match session.answer(&mut service, parse(bytes)) {
+        match session.answer(&mut service, parse(bytes), &notify) {
             Some(Value::Array(all)) => all.iter().for_each(|answer| check(answer, &ids)),
             Some(answer) => check(&answer, &ids),
             None => {}

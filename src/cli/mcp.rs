@@ -86,7 +86,7 @@ pub(super) fn serve(args: &Args) -> Outcome {
         Some(port) => args.serve_http(port, &mut agent, &running, &interrupt)?,
         None => {
             end_with(&interrupt);
-            let mut output: Box<dyn Write> = match reserved {
+            let mut output: Box<dyn Write + Send> = match reserved {
                 Some(file) => Box::new(file),
                 None => Box::new(stdout()),
             };

@@ -31,6 +31,7 @@ async def use(streams):
         wrong = await session.call_tool('get_properties', {'items': ['/Mrak.position']})
         assert wrong.is_error and '/Mark' in text(wrong), wrong
 
+        await progress(session)
         picture = await session.call_tool('picture', {'width': 64, 'height': 48})
         images = [part for part in picture.content if part.type == 'image']
         assert len(images) == 1 and base64.b64decode(images[0].data).startswith(b'\x89PNG'), picture
@@ -42,6 +43,22 @@ async def use(streams):
         assert 'Mark' in read.contents[0].text, read
         page = await session.read_resource('docs://PROPERTIES.md')
         assert page.contents[0].text.startswith('# Properties'), page
+
+
+async def progress(session):
+    """A run of a second by the wall clock says meanwhile how far it is, by simulated time."""
+    notes = []
+
+    async def note(done, total, message):
+        notes.append((done, total, message))
+
+    await session.call_tool('run_code', {'code': 'begin = sim.getSystemTime()'})
+    until = {'until': {'lua': 'sim.getSystemTime() > begin + 1'}, 'time': 1e6}
+    result = await session.call_tool('run_until', until, progress_callback=note)
+    assert result.structured_content['reached'], result
+    times = [done for done, _, _ in notes]
+    assert notes and times == sorted(set(times)) and times[-1] <= result.structured_content['time'], (notes, result)
+    assert all(total == 1e6 and 'simulated time' in message for _, total, message in notes), notes
 
 
 async def by_stdio(command):

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
-use mcp::{About, Answer, Contents, NotFound, Resource, Service, Template, Tool};
+use mcp::{About, Answer, Contents, NotFound, Progress, Resource, Service, Template, Tool};
 use permissions::Permissions;
 use scene::Data;
 use serde_json::Value;
@@ -45,6 +45,8 @@ pub struct Agent {
     pub(crate) seen: Option<Vec<Row>>,
     pub(crate) snapshots: BTreeMap<String, Snapshot>,
     tools: Vec<Tool>,
+    /// Of the call that is made.
+    pub(crate) progress: Progress,
 }
 
 impl Agent {
@@ -66,6 +68,7 @@ impl Agent {
             sandbox,
             lines,
             seen: None,
+            progress: Progress::default(),
             snapshots: BTreeMap::new(),
             tools: tools::GROUPS
                 .iter()
@@ -158,7 +161,8 @@ impl Service for Agent {
         &self.tools
     }
 
-    fn call(&mut self, tool: &str, arguments: &Value) -> Answer {
+    fn call(&mut self, tool: &str, arguments: &Value, progress: &Progress) -> Answer {
+        self.progress = progress.clone();
         let deadline = Deadline::start(&self.setting.options.stop, self.setting.time_limit);
         let answer = self.dispatch(tool, arguments);
         let is_late = deadline.end();

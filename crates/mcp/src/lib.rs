@@ -5,6 +5,7 @@
 
 mod http;
 mod message;
+mod progress;
 mod running;
 mod service;
 mod session;
@@ -12,6 +13,7 @@ mod stdio;
 
 pub use http::{HttpServer, Secret};
 pub use message::{Fault, Message, code, parse};
+pub use progress::{Notify, Progress};
 pub use running::Running;
 pub use service::{About, Answer, Content, Contents, NotFound, Resource, Service, Template, Tool};
 pub use session::{LATEST, Session, VERSIONS};

@@ -4,6 +4,8 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
+use super::progress::Progress;
+
 /// Tools and resources behind the protocol.
 pub trait Service {
     /// Who it is.
@@ -12,8 +14,8 @@ pub trait Service {
     /// All tools; the list does not change.
     fn tools(&self) -> &[Tool];
 
-    /// Calls a tool of the list. What goes wrong in it is an answer too, for the model to read.
-    fn call(&mut self, tool: &str, arguments: &Value) -> Answer;
+    /// Calls a tool of the list. What goes wrong in it is an answer too, for the model to read. A call that takes long says how far it is.
+    fn call(&mut self, tool: &str, arguments: &Value, progress: &Progress) -> Answer;
 
     /// What can be read now.
     fn resources(&mut self) -> Vec<Resource>;

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::message::{Fault, Message, code, result};
+use super::progress::{Notify, Progress};
 use super::service::Service;
 
 /// The newest version of the protocol that is spoken here.
@@ -27,18 +28,19 @@ impl Session {
         self.version
     }
 
-    /// The answers to the messages of a text. None where there is nothing to say.
+    /// The answers to the messages of a text. None where there is nothing to say. What is said meanwhile goes to `notify`.
     pub fn answer(
         &mut self,
         service: &mut dyn Service,
         messages: Result<Vec<Result<Message, Fault>>, Fault>,
+        notify: &Notify,
     ) -> Option<Value> {
         let mut messages = match messages {
             Ok(messages) => messages,
             Err(fault) => return Some(fault.answer()),
         };
         if messages.len() == 1 {
-            return self.answer_one(service, messages.remove(0));
+            return self.answer_one(service, messages.remove(0), notify);
         }
         // The newest version has no batches.
         if self.version == Some(LATEST) {
@@ -49,7 +51,7 @@ impl Session {
         }
         let all: Vec<Value> = messages
             .into_iter()
-            .filter_map(|message| self.answer_one(service, message))
+            .filter_map(|message| self.answer_one(service, message, notify))
             .collect();
         (!all.is_empty()).then_some(Value::Array(all))
     }
@@ -58,10 +60,11 @@ impl Session {
         &mut self,
         service: &mut dyn Service,
         message: Result<Message, Fault>,
+        notify: &Notify,
     ) -> Option<Value> {
         match message {
             Ok(Message::Request { id, method, params }) => {
-                Some(match self.reply(service, &method, &params) {
+                Some(match self.reply(service, &method, &params, notify) {
                     Ok(value) => result(&id, value),
                     Err(fault) => Fault { id, ..fault }.answer(),
                 })
@@ -71,7 +74,13 @@ impl Session {
         }
     }
 
-    fn reply(&mut self, service: &mut dyn Service, method: &str, params: &Value) -> Reply {
+    fn reply(
+        &mut self,
+        service: &mut dyn Service,
+        method: &str,
+        params: &Value,
+        notify: &Notify,
+    ) -> Reply {
         match method {
             "ping" => Ok(json!({})),
             "initialize" => self.initialize(service, params),
@@ -83,7 +92,7 @@ impl Session {
                 let tools: Vec<Value> = service.tools().iter().map(|tool| tool.json()).collect();
                 Ok(json!({"tools": tools}))
             }
-            "tools/call" => call(service, params),
+            "tools/call" => call(service, params, &Progress::of(params, notify)),
             "resources/list" => list(service, params),
             "resources/templates/list" => {
                 let all: Vec<Value> = service.templates().iter().map(|one| one.json()).collect();
@@ -121,7 +130,7 @@ fn text_of<'a>(params: &'a Value, name: &str) -> Result<&'a str, Fault> {
     })
 }
 
-fn call(service: &mut dyn Service, params: &Value) -> Reply {
+fn call(service: &mut dyn Service, params: &Value, progress: &Progress) -> Reply {
     let name = text_of(params, "name")?;
     if !service.tools().iter().any(|tool| tool.name == name) {
         let names: Vec<&str> = service.tools().iter().map(|tool| tool.name).collect();
@@ -139,7 +148,7 @@ fn call(service: &mut dyn Service, params: &Value) -> Reply {
             ));
         }
     };
-    Ok(service.call(name, arguments).json())
+    Ok(service.call(name, arguments, progress).json())
 }
 
 fn list(service: &mut dyn Service, params: &Value) -> Reply {

@@ -1,9 +1,13 @@
 //! Messages as lines: standard input and output.
 
 use std::io::{BufRead, BufReader, Read, Result, Write};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::rc::Rc;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+
+use serde_json::Value;
 
 use super::message::{Fault, code, parse};
+use super::progress::Notify;
 use super::running::Running;
 use super::service::Service;
 use super::session::Session;
@@ -16,14 +20,15 @@ const QUEUE: usize = 256;
 /// A line, or that it was too long.
 type Line = Option<Vec<u8>>;
 
-/// Answers the lines of `input` until it ends. Lines are read on a thread of their own, so that a call can be cancelled.
+/// Answers the lines of `input` until it ends. Lines are read on a thread of their own, so that a call can be cancelled, and written on
+/// another one, so that a call can say how far it is.
 ///
 /// # Errors
 /// When an answer cannot be written.
 pub fn serve(
     service: &mut dyn Service,
     input: impl Read + Send + 'static,
-    output: &mut dyn Write,
+    output: &mut (dyn Write + Send),
     running: &Running,
 ) -> Result<()> {
     let (sender, lines) = sync_channel(QUEUE);
@@ -31,16 +36,34 @@ pub fn serve(
     std::thread::Builder::new()
         .name("messages".into())
         .spawn(move || read_lines(input, &sender, &reading))?;
-    answer_lines(service, &lines, output, running)
+    std::thread::scope(|threads| {
+        let (answers, written) = channel();
+        let writing = threads.spawn(move || write_lines(output, &written));
+        answer_lines(service, &lines, answers, running);
+        writing
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn write_lines(output: &mut dyn Write, answers: &Receiver<Value>) -> Result<()> {
+    for answer in answers {
+        output.write_all(format!("{answer}\n").as_bytes())?;
+        output.flush()?;
+    }
+    Ok(())
 }
 
 fn answer_lines(
     service: &mut dyn Service,
     lines: &Receiver<Line>,
-    output: &mut dyn Write,
+    answers: Sender<Value>,
     running: &Running,
-) -> Result<()> {
+) {
     let mut session = Session::default();
+    let notes = answers.clone();
+    // Where nobody reads any more, the next answer shows it.
+    let notify: Notify = Rc::new(move |note| drop(notes.send(note)));
     for line in lines {
         let messages = match line {
             Some(line) => parse(&line),
@@ -53,15 +76,15 @@ fn answer_lines(
             .as_ref()
             .map_or(true, |messages| running.begin("", messages));
         let answer = is_wanted
-            .then(|| session.answer(service, messages))
+            .then(|| session.answer(service, messages, &notify))
             .flatten();
         let is_awaited = running.end();
-        if let Some(answer) = answer.filter(|_| is_awaited) {
-            output.write_all(format!("{answer}\n").as_bytes())?;
-            output.flush()?;
+        if let Some(answer) = answer.filter(|_| is_awaited)
+            && answers.send(answer).is_err()
+        {
+            return;
         }
     }
-    Ok(())
 }
 
 fn read_lines(input: impl Read, sender: &SyncSender<Line>, running: &Running) {

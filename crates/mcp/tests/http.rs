@@ -1,60 +1,18 @@
 //! Streamable HTTP as clients meet it: sessions, what is refused, calls that are cancelled, and clients that behave badly.
 
+mod serving;
+
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
-use mcp::{
-    About, Answer, Contents, HttpServer, NotFound, Resource, Running, Secret, Service, Template,
-    Tool,
-};
+use mcp::{Answer, HttpServer, Progress, Running, Secret};
 use serde_json::{Value, json};
+use serving::{Serving, call_with_progress, check_progress, say_twice};
 
 const SECRET: &str = "0123456789abcdef";
-
-/// Has one tool, which waits until it is stopped.
-struct Waiting {
-    tools: Vec<Tool>,
-    stop: Arc<AtomicBool>,
-    has_begun: Arc<AtomicBool>,
-}
-
-impl Service for Waiting {
-    fn about(&self) -> About {
-        About {
-            name: "test",
-            title: "Test",
-            version: "1",
-            instructions: String::new(),
-        }
-    }
-
-    fn tools(&self) -> &[Tool] {
-        &self.tools
-    }
-
-    fn call(&mut self, _: &str, _: &Value) -> Answer {
-        self.has_begun.store(true, Ordering::Relaxed);
-        while !self.stop.load(Ordering::Relaxed) {
-            std::thread::yield_now();
-        }
-        Answer::text("stopped")
-    }
-
-    fn resources(&mut self) -> Vec<Resource> {
-        Vec::new()
-    }
-
-    fn templates(&self) -> Vec<Template> {
-        Vec::new()
-    }
-
-    fn read(&mut self, uri: &str) -> Result<Contents, NotFound> {
-        Err(NotFound(uri.into()))
-    }
-}
 
 /// A server that ends with the test.
 struct Server {
@@ -65,7 +23,13 @@ struct Server {
 }
 
 impl Server {
+    /// Its tool waits until it is stopped.
     fn start() -> Self {
+        Self::with_tool(false)
+    }
+
+    /// Its tool waits, or says how far it is.
+    fn with_tool(says: bool) -> Self {
         let secret = Secret::given(SECRET).expect("it is long enough");
         let server = HttpServer::bind(0, secret).expect("a port");
         let address = server.address().expect("an address");
@@ -73,18 +37,18 @@ impl Server {
         let (over, begun) = (Arc::clone(&is_over), Arc::clone(&has_begun));
         let thread = std::thread::spawn(move || {
             let stop = Arc::<AtomicBool>::default();
-            let tool = Tool {
-                name: "wait",
-                title: "Wait",
-                description: String::new(),
-                arguments: json!({"type": "object"}),
-                reads_only: true,
+            let flag = Arc::clone(&stop);
+            let wait = move |progress: &Progress| {
+                if says {
+                    return say_twice(progress);
+                }
+                begun.store(true, Ordering::Relaxed);
+                while !flag.load(Ordering::Relaxed) {
+                    std::thread::yield_now();
+                }
+                Answer::text("stopped")
             };
-            let mut service = Waiting {
-                tools: vec![tool],
-                stop: Arc::clone(&stop),
-                has_begun: begun,
-            };
+            let mut service = Serving::new("wait", wait);
             let ended = server.serve(&mut service, &Running::new(stop), || {
                 over.load(Ordering::Relaxed)
             });
@@ -246,6 +210,30 @@ fn a_call_is_cancelled_by_its_own_session_only() {
     assert_eq!(other.receive().status, 202);
     assert_eq!(canceller.receive().status, 202);
     assert_eq!(client.post(&request(8, "ping")).status, 200);
+}
+
+#[test]
+fn a_call_says_how_far_it_is_in_a_stream_of_events() {
+    let server = Server::with_tool(true);
+    let mut client = server.client();
+    let call = call_with_progress(7, "wait");
+    let quiet = client.post(&call);
+    assert_eq!(quiet.body["id"], 7, "without events there is one answer");
+    client.session += "Accept: application/json, text/event-stream\r\n";
+    client.send_post(&call);
+    let mut stream = String::new();
+    client
+        .input
+        .read_to_string(&mut stream)
+        .expect("the stream ends with the connection");
+    assert!(stream.contains("\r\nContent-Type: text/event-stream\r\n"));
+    let events = stream
+        .lines()
+        .filter_map(|line| line.strip_prefix("data: "));
+    let events: Vec<Value> = events
+        .map(|event| serde_json::from_str(event).expect("JSON"))
+        .collect();
+    check_progress(&events, 7);
 }
 
 #[test]

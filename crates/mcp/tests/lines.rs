@@ -2,47 +2,16 @@
 
 use std::io::{Cursor, Read};
 
-use mcp::{
-    About, Answer, Contents, MAX_LINE, NotFound, Resource, Running, Service, Template, Tool, serve,
-};
+mod serving;
+
+use mcp::{Answer, MAX_LINE, Running, serve};
 use serde_json::{Value, json};
-
-struct Nothing;
-
-impl Service for Nothing {
-    fn about(&self) -> About {
-        About {
-            name: "test",
-            title: "Test",
-            version: "1",
-            instructions: String::new(),
-        }
-    }
-
-    fn tools(&self) -> &[Tool] {
-        &[]
-    }
-
-    fn call(&mut self, _: &str, _: &Value) -> Answer {
-        Answer::default()
-    }
-
-    fn resources(&mut self) -> Vec<Resource> {
-        Vec::new()
-    }
-
-    fn templates(&self) -> Vec<Template> {
-        Vec::new()
-    }
-
-    fn read(&mut self, uri: &str) -> Result<Contents, NotFound> {
-        Err(NotFound(uri.into()))
-    }
-}
+use serving::{Serving, call_with_progress, check_progress, say_twice};
 
 fn answers(input: impl Read + Send + 'static) -> Vec<Value> {
+    let mut service = Serving::new("say", say_twice);
     let mut output = Vec::new();
-    serve(&mut Nothing, input, &mut output, &Running::default()).expect("it serves");
+    serve(&mut service, input, &mut output, &Running::default()).expect("it serves");
     let text = String::from_utf8(output).expect("answers are text");
     text.lines()
         .map(|line| serde_json::from_str(line).expect("an answer is JSON"))
@@ -71,6 +40,35 @@ fn a_line_that_is_too_long_is_refused_and_the_next_one_answered() {
 fn notifications_and_responses_have_no_answer() {
     let note = "{\"jsonrpc\":\"2.0\",\"method\":\"notifications/initialized\"}\n{\"jsonrpc\":\"2.0\",\"id\":1,\"result\":{}}\n";
     assert_eq!(answers(Cursor::new(format!("{note}{PING}\n"))).len(), 1);
+}
+
+#[test]
+fn a_call_says_how_far_it_is_before_its_answer() {
+    let hello = json!({"jsonrpc": "2.0", "id": 0, "method": "initialize", "params": {"protocolVersion": "2025-06-18"}});
+    let call = call_with_progress(7, "say");
+    let answers = answers(Cursor::new(format!("{hello}\n{call}\n")));
+    check_progress(&answers[1..], 7);
+}
+
+/// Its end of the lines is closed, as that of a client which is gone.
+struct Closed;
+
+impl std::io::Write for Closed {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        Err(std::io::ErrorKind::BrokenPipe.into())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn serving_ends_when_nobody_reads() {
+    let mut service = Serving::new("nothing", |_| Answer::default());
+    let input = Cursor::new(format!("{PING}\n").repeat(100));
+    let served = serve(&mut service, input, &mut Closed, &Running::default());
+    assert!(served.is_err());
 }
 
 #[test]

@@ -33,6 +33,8 @@ pub(super) struct Plan {
     pub watch: Vec<String>,
     /// Between two samples, seconds; each step if that is 0.
     pub every: f64,
+    /// Whether the client is told how far it is: not of parts of something.
+    pub is_whole: bool,
 }
 
 /// What came of a plan.
@@ -138,6 +140,7 @@ impl Plan {
         Self {
             watch: arguments.texts("watch"),
             every: arguments.number("every").unwrap_or_default(),
+            is_whole: true,
             ..Self::default()
         }
     }
@@ -323,6 +326,7 @@ impl<'a> Advance<'a> {
             }
             self.steps += agent.sim.steps().saturating_sub(before);
             self.sample(agent)?;
+            self.report(agent);
             if let Some(met) = met(agent)? {
                 self.last_sample(agent)?;
                 return Ok((format!("Reached: {met},"), true));
@@ -359,6 +363,20 @@ impl<'a> Advance<'a> {
             return None;
         };
         Some((found.0.to_owned(), found.1))
+    }
+
+    /// Tells the client how far the run is: steps, or seconds.
+    fn report(&self, agent: &Agent) {
+        if !self.plan.is_whole {
+            return;
+        }
+        let time = agent.sim.time();
+        let (done, total) = match self.plan.steps {
+            Some(steps) => (self.steps as f64, Some(steps as f64)),
+            None => (time - self.begun, self.plan.time),
+        };
+        let message = || format!("{} steps, simulated time {time:.3} s", self.steps);
+        agent.progress.report(done, total, message);
     }
 
     fn sample(&mut self, agent: &mut Agent) -> Result<(), String> {

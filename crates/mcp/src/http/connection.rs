@@ -35,6 +35,8 @@ pub(super) struct Reply {
     body: Option<Value>,
     /// The id of a session that begins.
     session: Option<String>,
+    /// Whether it is the end of a stream of events.
+    is_event: bool,
 }
 
 impl Reply {
@@ -43,7 +45,7 @@ impl Reply {
         Self {
             status: if body.is_some() { 200 } else { 202 },
             body,
-            session: None,
+            ..Self::default()
         }
     }
 
@@ -84,11 +86,14 @@ impl Reply {
         Self {
             status,
             body: Some(fault.answer()),
-            session: None,
+            ..Self::default()
         }
     }
 
     fn bytes(&self) -> Vec<u8> {
+        if self.is_event {
+            return self.body.as_ref().map(event).unwrap_or_default();
+        }
         let body = self.body.as_ref().map(Value::to_string).unwrap_or_default();
         let mut head = format!("HTTP/1.1 {} {}\r\n", self.status, reason(self.status));
         if !body.is_empty() {
@@ -105,6 +110,14 @@ impl Reply {
         }
         format!("{head}Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes()
     }
+}
+
+/// The head of a stream of events, which ends with the connection.
+const EVENTS: &str = "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-cache\r\nConnection: close\r\n\r\n";
+
+/// A message as an event; JSON has no line ends.
+fn event(message: &Value) -> Vec<u8> {
+    format!("event: message\ndata: {message}\n\n").into_bytes()
 }
 
 fn reason(status: u16) -> &'static str {
@@ -159,7 +172,8 @@ impl Connection {
                     let Some(reply) = self.reply(&request) else {
                         return Ok(());
                     };
-                    (reply, keeps(&request))
+                    let goes_on = !reply.is_event && keeps(&request);
+                    (reply, goes_on)
                 }
             };
             (&self.stream).write_all(&reply.bytes())?;
@@ -194,7 +208,7 @@ impl Connection {
         let session = request.header("mcp-session-id").map(str::to_owned);
         match request.method.as_str() {
             "POST" => self.post(request, session),
-            "DELETE" => ask(&self.jobs, session, Ask::End),
+            "DELETE" => ask(&self.jobs, session, Ask::End, |_| ()),
             _ => Some(Reply::refused(
                 405,
                 "messages are posted; there is no stream of events",
@@ -212,7 +226,7 @@ impl Connection {
                 return Some(Reply {
                     status: 400,
                     body: Some(fault.answer()),
-                    session: None,
+                    ..Reply::default()
                 });
             }
         };
@@ -224,7 +238,18 @@ impl Connection {
                 "the header Mcp-Session-Id is missing: the answer to initialize has it",
             ));
         }
-        ask(&self.jobs, session, Ask::Messages(messages))
+        let may_stream = request.header("accept").is_some_and(takes_events);
+        let mut is_event = false;
+        let note = |note: &Value| {
+            if may_stream {
+                let head = if is_event { "" } else { EVENTS };
+                is_event = true;
+                // A client that is gone is noticed at the reply.
+                let _ = (&self.stream).write_all(&[head.as_bytes(), &event(note)].concat());
+            }
+        };
+        let reply = ask(&self.jobs, session, Ask::Messages(messages), note)?;
+        Some(Reply { is_event, ..reply })
     }
 }
 
@@ -239,6 +264,10 @@ fn takes_json(accept: &str) -> bool {
     ["application/json", "application/*", "*/*"]
         .iter()
         .any(|kind| accept.contains(kind))
+}
+
+fn takes_events(accept: &str) -> bool {
+    accept.contains("text/event-stream")
 }
 
 fn begins(messages: &[std::result::Result<Message, Fault>]) -> bool {

@@ -1,7 +1,7 @@
 //! Streamable HTTP on the loopback: one address, `/mcp`, to which clients post messages.
 //!
-//! Each request is answered by one JSON text. There are no streams of events: the server has nothing to say without being asked, which the
-//! protocol allows. A secret as bearer token keeps other users and web pages out; pages of other origins are refused even with it.
+//! Each request is answered by one JSON text, or by a stream of events if a call says how far it is. There are no other streams: the server
+//! has nothing to say without being asked, which the protocol allows. A secret as bearer token keeps other users and web pages out; pages of other origins are refused even with it.
 
 mod connection;
 mod guard;
@@ -10,17 +10,20 @@ mod request;
 use std::collections::VecDeque;
 use std::io::Result;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::rc::Rc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, mpsc::Receiver};
 use std::time::Duration;
 
 use super::message::{Fault, Message};
+use super::progress::Notify;
 use super::running::Running;
 use super::service::Service;
 use super::session::Session;
 use connection::{Connection, Reply};
 pub use guard::Secret;
+use serde_json::Value;
 
 /// Connections at a time; more are closed at once.
 const MAX_CONNECTIONS: usize = 64;
@@ -39,7 +42,13 @@ pub struct HttpServer {
 struct Job {
     session: Option<String>,
     ask: Ask,
-    reply: Sender<Reply>,
+    answer: Sender<Part>,
+}
+
+/// What a connection gets for its messages: any number of notes, then a reply.
+enum Part {
+    Note(Value),
+    Reply(Reply),
 }
 
 enum Ask {
@@ -121,9 +130,11 @@ impl Sessions {
     ) {
         while !is_over() {
             if let Ok(job) = jobs.recv_timeout(POLL_INTERVAL) {
-                let reply = self.reply(service, running, job.session, job.ask);
+                let notes = job.answer.clone();
                 // The client may be gone.
-                let _ = job.reply.send(reply);
+                let notify: Notify = Rc::new(move |note| drop(notes.send(Part::Note(note))));
+                let reply = self.reply(service, running, job.session, job.ask, &notify);
+                let _ = job.answer.send(Part::Reply(reply));
             }
         }
     }
@@ -134,20 +145,21 @@ impl Sessions {
         running: &Running,
         session: Option<String>,
         ask: Ask,
+        notify: &Notify,
     ) -> Reply {
         let messages = match ask {
             Ask::Messages(messages) => messages,
             Ask::End => return self.end(session.as_deref()),
         };
         let Some(id) = session else {
-            return self.begin(service, messages);
+            return self.begin(service, messages, notify);
         };
         let Some((_, session)) = self.0.iter_mut().find(|(other, _)| *other == id) else {
             return Reply::unknown_session();
         };
         let is_wanted = running.begin(&id, &messages);
         let answer = is_wanted
-            .then(|| session.answer(service, Ok(messages)))
+            .then(|| session.answer(service, Ok(messages), notify))
             .flatten();
         running.end();
         Reply::of(answer)
@@ -158,9 +170,10 @@ impl Sessions {
         &mut self,
         service: &mut dyn Service,
         messages: Vec<std::result::Result<Message, Fault>>,
+        notify: &Notify,
     ) -> Reply {
         let mut session = Session::default();
-        let answer = session.answer(service, Ok(messages));
+        let answer = session.answer(service, Ok(messages), notify);
         if session.version().is_none() {
             return Reply::without_session(answer);
         }
@@ -186,13 +199,23 @@ impl Sessions {
 }
 
 /// Asks the thread of the service, and waits for the reply; None when there is none any more.
-fn ask(jobs: &SyncSender<Job>, session: Option<String>, ask: Ask) -> Option<Reply> {
-    let (reply, answer) = channel();
+fn ask(
+    jobs: &SyncSender<Job>,
+    session: Option<String>,
+    ask: Ask,
+    mut note: impl FnMut(&Value),
+) -> Option<Reply> {
+    let (answer, parts) = channel();
     let job = Job {
         session,
         ask,
-        reply,
+        answer,
     };
     jobs.send(job).ok()?;
-    answer.recv().ok()
+    loop {
+        match parts.recv().ok()? {
+            Part::Note(value) => note(&value),
+            Part::Reply(reply) => return Some(reply),
+        }
+    }
 }
