@@ -4,17 +4,15 @@ import base64
 import json
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
 
+from access import is_accessible
 from browser import WITH_WEBGL, Browser, program
 from compare import same
 from simulator import Simulator
 
 FOLDER = pathlib.Path(__file__).parent
 PICTURE = FOLDER / "view_picture.png"
-ROOT = FOLDER.parents[1]
 TOLERANCE = 6  # mean difference of a colour, of 255
 OBJECT = "[...swanilda.store.objects.values()].find(object => object.alias == '{}')"
 TREE = "[...document.querySelectorAll('[role=treeitem] .name')].map(name => name.textContent)"
@@ -194,20 +192,6 @@ def fits_small_screens(browser):
     same("the scene", browser.evaluate("document.getElementById('scene').clientWidth"), 360)
     buttons = "[...document.querySelectorAll('#bar button')].every(button => button.getBoundingClientRect().right <= 360)"
     same("the bar", browser.evaluate(buttons), True)
-
-
-def is_accessible(browser):
-    """No serious findings of axe, where npm can install it."""
-    folder = ROOT / "target/tmp/axe"
-    script = folder / "node_modules/axe-core/axe.min.js"
-    if not script.exists() and shutil.which("npm"):
-        subprocess.run(["npm", "install", "--silent", "--prefix", folder, "axe-core@4.10.3"], capture_output=True)
-    if not script.exists():
-        return
-    browser.evaluate(script.read_text())
-    found = browser.evaluate("""axe.run().then(({violations}) => violations.filter(({impact}) => impact == 'serious' || impact == 'critical')
-        .map(({id, nodes}) => id + ': ' + nodes.map(({html}) => html.slice(0, 160)).join(' | ')))""")
-    same("serious findings", found, [])
 
 
 def console_has_no_errors(browser):

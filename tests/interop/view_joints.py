@@ -3,6 +3,7 @@
 import math
 import sys
 
+from access import is_accessible
 from browser import WITH_WEBGL, Browser, program
 from compare import same
 from hands import box, click, drag, found, key, middle, run
@@ -101,6 +102,7 @@ def main():
         a_model_shows_its_joints(browser)
         sliders_move_joints(browser)
         targets_are_followed_while_it_runs(browser)
+        is_accessible(browser)
         same("exceptions", [event for event in browser.events if event["method"] == "Runtime.exceptionThrown"], [])
 
 

@@ -7,6 +7,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
+from access import is_accessible
 from browser import WITH_WEBGL, Browser, program
 from compare import same
 from hands import click, found, key, middle, mouse, press, run, with_text
@@ -115,6 +116,7 @@ def main():
         a_button_puts_a_number_on_the_curves(browser)
         rows_are_dragged_to_the_pane(browser)
         curves_are_saved(browser)
+        is_accessible(browser)
         what_is_not_followed_is_not_sent(browser)
         lists_that_are_none_are_refused(browser)
         same("exceptions", [event for event in browser.events if event["method"] == "Runtime.exceptionThrown"], [])

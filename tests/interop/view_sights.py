@@ -1,14 +1,13 @@
 """Ways to look at the scene, by mouse and keyboard: directions, two views, distances, paths, forces."""
 
-import pathlib
 import sys
 
+from access import is_accessible
 from browser import WITH_WEBGL, Browser, program
 from compare import same
 from hands import box, click, drag, found, key, middle, press, run, with_text
 from simulator import Simulator
 
-ROOT = pathlib.Path(__file__).parents[2]
 CODE = """
 function made(handle, name, parent) sim.setObjectAlias(handle, name) if parent then sim.setObjectParent(handle, parent, true) end return handle end
 one = made(sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.2, 0.2, 0.2}), 'one')
@@ -134,18 +133,6 @@ def contacts_are_arrows(browser):
     option(browser, "Contacts and forces")
 
 
-def is_accessible(browser):
-    """No findings of axe with everything open, where view_browser.py has installed it."""
-    script = ROOT / "target/tmp/axe/node_modules/axe-core/axe.min.js"
-    if not script.exists():
-        return
-    press(browser, "#bar [title='Options of the view']")
-    browser.evaluate(script.read_text())
-    found = browser.evaluate("""axe.run().then(({violations}) => violations.filter(({impact}) => impact == 'serious' || impact == 'critical')
-        .map(({id, nodes}) => id + ': ' + nodes.map(({html}) => html.slice(0, 160)).join(' | ')))""")
-    same("serious findings", found, [])
-
-
 def main():
     with Simulator("--empty", "--paused", "--no-open", command="view") as sim, Browser(program() or sys.exit("there is no Chromium"), WITH_WEBGL) as browser:
         for domain in ("Page", "Runtime", "Log"):
@@ -161,6 +148,7 @@ def main():
         two_views_stand_side_by_side(browser)
         paths_and_forces_are_drawn(browser)
         contacts_are_arrows(browser)
+        press(browser, "#bar [title='Options of the view']")
         is_accessible(browser)
         same("exceptions", [event for event in browser.events if event["method"] == "Runtime.exceptionThrown"], [])
 

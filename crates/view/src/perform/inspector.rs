@@ -71,6 +71,9 @@ fn describe(row: &PropertyRow, motion: Motion) -> Value {
         "unit": unit(&row.name, motion),
         "label": label(&row.name),
     });
+    if !row.description.is_empty() {
+        described["about"] = row.description.into();
+    }
     if !row.has_effect {
         described["inert"] = true.into();
     }

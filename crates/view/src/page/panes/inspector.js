@@ -109,6 +109,7 @@ export class InspectorPane {
 
   _show(rows) {
     this.rows.clear();
+    this.sparkline.hide(); // its row is gone
     this.shown = rows;
     const object = this.store.objects.get(this.handle);
     const { main, groups } = arranged(rows, object);
@@ -149,7 +150,7 @@ export class InspectorPane {
     const editor = writable ? editorOf(row, label, (value) => this._set(row, value)) : null;
     const shown = editor?.element ?? el('output', { class: 'value', 'aria-label': label }, this._text(row));
     const wide = Array.isArray(row.value) && row.value.length > 1 && row.type !== 'color';
-    const name = el('span', { class: 'label', title: row.name }, label);
+    const name = el('span', { class: 'label', title: row.about ? `${row.name}: ${row.about}` : row.name }, label);
     editor?.draggedBy?.(name);
     const unit = el('span', { class: 'unit', title: row.inert ? 'It is kept for scripts and files, and has no effect in Swanilda.' : null }, row.inert ? 'no effect' : shownUnit(row.unit).unit);
     const element = el('div', { class: `property${wide ? ' wide' : ''}${row.inert ? ' inert' : ''}`, 'data-name': row.name }, name, shown, unit, this._copy(row, label));

@@ -34,7 +34,7 @@ export class PoseBlock {
     const angles = el('select', { 'aria-label': 'Angles', title: 'Angles', onchange: () => (chooseAngles(angles.value), how.again()) }, el('option', { value: 'degrees' }, '°'), el('option', { value: 'radians' }, 'rad'));
     angles.value = inDegrees() ? 'degrees' : 'radians';
     const frame = choice('Frame of the pose', 'pose frame', 'world', [['world', 'World'], ['parent', 'Parent']], () => this._build());
-    const rotation = choice('Rotation as', 'pose rotation', 'euler', [['euler', 'Euler'], ['quaternion', 'Quaternion']], () => this._build());
+    const rotation = choice('Rotation as', 'pose rotation', 'euler', [['euler', 'Euler'], ['quaternion', 'Quat.']], () => this._build());
     const copy = iconButton('copy', 'Copy the pose as Lua', () => copyText(how.lua(this._row())), { class: 'icon-button copy' });
     this.element = el('section', { class: 'pose-block', 'aria-label': 'Pose' }, el('div', { class: 'pose-head' }, rows.pose ? frame : el('span', { class: 'label' }, 'World'), rotation, angles, copy, how.curve), this.fields);
     this._build();
