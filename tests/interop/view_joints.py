@@ -58,6 +58,7 @@ def a_model_shows_its_joints(browser):
 def sliders_move_joints(browser):
     turn = slider(browser, "turn")
     browser.evaluate(f"{turn}.scrollIntoView({{block: 'nearest'}})")
+    browser.evaluate("(send => { globalThis.gestures = []; swanilda.source._send = (action, members) => { if (action == 'set') gestures.push(members.gesture); return send.call(swanilda.source, action, members) } })(swanilda.source._send)")
     start = place(browser, turn, 0.5)
     drag(browser, start, [place(browser, turn, 0.75)[0] - start[0], 0])
     browser.shows(f"Math.abs({turn}.value - 0.5) < 0.03", "the slider")
@@ -66,6 +67,7 @@ def sliders_move_joints(browser):
     degrees = math.degrees(value(browser, "sim.getJointPosition(turn)"))
     browser.shows(f"Math.abs(parseFloat({now}) - {degrees}) < 0.01", "in degrees")
     same("the unit", browser.evaluate(now).split()[1], "°")
+    same("what is dragged at once is one change", browser.evaluate("new Set(gestures).size == 1 && gestures[0] > 0"), True)
     before = value(browser, "sim.getJointPosition(turn)")
     key(browser, "ArrowLeft")  # the slider has the focus
     browser.shows(f"{turn}.value < {before} - 0.01", "a key")

@@ -218,6 +218,7 @@ export class InspectorPane {
 
   _filter() {
     const text = this.search.value.trim().toLowerCase();
+    this.list.classList.toggle('searched', !!text);
     for (const { row, element } of this.rows.values()) element.hidden = !!text && !`${row.name} ${row.label}`.toLowerCase().includes(text);
     for (const group of this.list.querySelectorAll('.group')) group.hidden = [...group.querySelectorAll('.property')].every((row) => row.hidden);
   }

@@ -57,7 +57,7 @@ export class Overlay {
     this.tip.hidden = !object;
     if (!object) return;
     this.tip.replaceChildren(el('strong', {}, object.alias), ` ${object.objectType}`);
-    this.tip.style.left = `${Math.min(x + 14, renderer.canvas.clientWidth - 160)}px`;
+    this.tip.style.left = `${Math.min(x + 14, renderer.canvas.parentElement.clientWidth - 160)}px`;
     this.tip.style.top = `${y + 16}px`;
   }
 

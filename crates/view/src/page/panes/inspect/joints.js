@@ -7,6 +7,7 @@ const MOST = 60; // joints
 const FOLLOWED = ['jointMode', 'dynCtrlMode', 'targetPos', 'targetVel'];
 const DYNAMIC = 5;
 const [VELOCITY, POSITION, SPRING] = [4, 8, 12];
+const newGesture = () => Math.floor(Math.random() * 2 ** 50);
 const FASTEST = { rad: Math.PI, m: 1 }; // of sliders for velocities, unless it is faster already
 
 /** Joints below an object, and itself if it is one. */
@@ -20,7 +21,7 @@ class JointRow {
     Object.assign(this, { pane, handle, state: {} });
     const { page } = pane;
     this.name = el('button', { type: 'button', class: 'link joint-name', onclick: () => page.select(handle, false) });
-    this.slider = el('input', { type: 'range', step: 'any', disabled: !page.canWrite, oninput: () => this._slid(), onpointerdown: () => (this.held = true), onpointerup: () => (this.held = false), onkeydown: (event) => this._key(event) });
+    this.slider = el('input', { type: 'range', step: 'any', disabled: !page.canWrite, oninput: () => this._slid(), onpointerdown: () => this._hold(true), onpointerup: () => this._hold(false), onpointercancel: () => this._hold(false), onkeydown: (event) => this._key(event) });
     this.now = el('output', { class: 'value joint-now' });
     this.element = el('div', { class: 'joint', 'data-joint': handle }, this.name, this.now, this.slider);
     this.update();
@@ -83,7 +84,14 @@ class JointRow {
     setText(this.now, shown(jointPosition, this._unit));
     const words = `${what} of ${alias}`;
     if (this.slider.ariaLabel !== words) this.slider.ariaLabel = this.slider.title = words;
-    this.slider.setAttribute('aria-valuetext', shown(value, driven === 'targetVel' ? `${this._unit}/s` : this._unit));
+    const said = shown(value, driven === 'targetVel' ? `${this._unit}/s` : this._unit);
+    if (this.said !== said) this.slider.setAttribute('aria-valuetext', (this.said = said));
+  }
+
+  /** What is dragged at once is one change. */
+  _hold(held) {
+    this.held = held;
+    if (held) this.gesture = newGesture();
   }
 
   /** The arrow keys go by a hundredth of the way. */
@@ -92,6 +100,7 @@ class JointRow {
     if (!by) return;
     event.preventDefault();
     event.stopPropagation();
+    if (!event.repeat) this.gesture = newGesture();
     this.slider.value = String(Number(this.slider.value) + (by * (this.high - this.low) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1)) / 100);
     this._slid();
   }
@@ -116,8 +125,9 @@ class JointRow {
   async _set(driven, value) {
     const { page } = this.pane;
     if (!driven) return;
-    await page.ask('set', { handle: this.handle, name: driven, value });
-    if (driven === 'targetPos' && page.store.scene.state === 'stopped') await page.ask('set', { handle: this.handle, name: 'jointPosition', value });
+    const { handle, gesture } = this;
+    await page.ask('set', { handle, name: driven, value, gesture });
+    if (driven === 'targetPos' && page.store.scene.state === 'stopped') await page.ask('set', { handle, name: 'jointPosition', value, gesture });
   }
 }
 
@@ -126,8 +136,8 @@ export class JointsPane {
     this.page = page;
     this.rows = [];
     this.element = el('details', { class: 'joints', open: true, hidden: true }, el('summary', {}, 'joints'));
-    page.store.on('objects', (changed) => this.rows.some(({ handle }) => changed.has(handle)) && this._update());
-    page.store.on('scene', () => this._update());
+    page.store.on('objects', (changed) => this.rows.forEach((row) => changed.has(row.handle) && row.update()));
+    page.store.on('scene', () => this.state !== page.store.scene.state && this._update());
   }
 
   /** Shows the joints of an object. */
@@ -147,6 +157,7 @@ export class JointsPane {
   }
 
   _update() {
+    this.state = this.page.store.scene.state;
     this.rows.forEach((row) => row.update());
   }
 }

@@ -19,7 +19,7 @@ export class Torques {
     this.high = el('span');
     this.legend = el('div', { class: 'torques', role: 'img', hidden: true }, this.low, el('span', { class: 'torque-scale' }), this.high);
     document.getElementById('overlay').append(this.legend);
-    page.store.on('objects', () => this.shown && this._follow());
+    page.store.on('objects', (changed) => this.shown && this._changed(changed));
   }
 
   show(shown) {
@@ -32,6 +32,13 @@ export class Torques {
     this._follow();
     if (!this.shown) this.page.renderer.view.refresh([...this.store.objects.values()].filter(({ objectType }) => objectType === 'joint').map(({ handle }) => handle));
     this._say();
+  }
+
+  _changed(changed) {
+    const known = new Set(this.handles);
+    const comesOrGoes = (handle) => known.has(handle) !== (this.store.objects.get(handle)?.objectType === 'joint');
+    if ([...changed].some(comesOrGoes)) this._follow();
+    else this._paint();
   }
 
   /** All joints, as they come and go. */
