@@ -12,6 +12,14 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     TABLE.lines().filter_map(|line| line.split('\t').next())
 }
 
+/// Name, the line that begins its definition, and when it is called.
+pub(crate) fn summaries() -> impl Iterator<Item = (&'static str, String, &'static str)> {
+    all().map(|callback| {
+        let signature = format!("function {}({})", callback.name, callback.parameters());
+        (callback.name, signature, callback.when)
+    })
+}
+
 struct Callback {
     name: &'static str,
     scripts: &'static str,

@@ -9,6 +9,7 @@ mod coverage;
 mod lua;
 mod markdown;
 mod modules;
+mod names;
 mod overview;
 mod plugin_header;
 mod plugins;
@@ -25,6 +26,7 @@ use script::{Member, pairs};
 
 pub use approximated::difference;
 pub use markdown::function_text;
+pub use names::{callback_summaries, constants};
 pub use overview::with_overview;
 pub use row::{FunctionDoc, ParameterDoc, ResultDoc};
 pub use usage::{

@@ -78,6 +78,7 @@ pub use host::LevelChange;
 pub use host::Script;
 pub use log::console::{Console, LogLine, OutputStream, Silent};
 pub use lua_runtime::coverage::executable;
+pub use lua_runtime::syntax::{SyntaxError, syntax_error};
 pub use options::{CacheFolder, Limits, Options};
 pub use property::{
     Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,

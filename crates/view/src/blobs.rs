@@ -12,7 +12,7 @@ use scene::shape::Part;
 pub(crate) use super::hash::Hash;
 
 impl Hash {
-    fn of(bytes: &[u8]) -> Self {
+    pub(crate) fn of(bytes: &[u8]) -> Self {
         let digest = digest(&SHA256, bytes);
         Self(*digest.as_ref().first_chunk().expect("SHA-256 has 32 bytes"))
     }

@@ -15,6 +15,7 @@ mod reused;
 mod shared_process;
 mod stand_ins;
 mod startup;
+pub(crate) mod syntax;
 mod taped;
 mod test_file;
 pub(crate) mod threads;

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::ScriptError;
 use super::meshes::Meshes;
-use crate::blobs::Blob;
+use crate::blobs::{Blob, Hash};
 use scene::appearance::colour::Colour;
 use scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
 use scene::joint::{Joint, JointType};
@@ -222,6 +222,7 @@ fn of_script(script: &ScriptObject, error: Option<&ScriptError>) -> Value {
         "scriptType": script_type,
         "language": script.language,
         "enabled": !script.disabled,
+        "version": Hash::of(&script.code).to_string(),
         "error": error.map(|error| json!({ "line": error.line, "message": error.message })),
     })
 }

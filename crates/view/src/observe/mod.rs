@@ -23,7 +23,7 @@ use std::sync::Arc;
 use ::scene::{Change, Cursor, Field, Handle, Kind, Scene, Topic, Topics, Unread};
 use script::log::RecentLine;
 
-use super::blobs::Blob;
+use super::blobs::{Blob, Hash};
 pub(crate) use button_interfaces::handle_of;
 pub(crate) use log::describe as describe_line;
 use meshes::Meshes;
@@ -118,6 +118,8 @@ pub(crate) struct Observer {
     meshes: Meshes,
     moved: Moved,
     script_errors: BTreeMap<i64, ScriptError>,
+    /// The texts that these errors are about.
+    wrong_texts: BTreeMap<i64, Hash>,
     visibility_layers: u16,
     drawings_seen: u64,
     known_drawings: BTreeSet<i64>,
@@ -287,6 +289,7 @@ impl Observer {
         for (script, error) in errors {
             failed.extend(Handle::from_raw(script));
             self.script_errors.insert(script, error);
+            self.wrong_texts.remove(&script);
         }
         failed
     }
@@ -304,6 +307,7 @@ impl Observer {
                 self.restless.remove(&handle);
             }
             let error = self.script_errors.get(&handle.raw());
+            let error = error.filter(|_| is_about(object, &mut self.wrong_texts));
             let place = self.places.get(&handle).copied().unwrap_or(0);
             Some((
                 handle.raw(),
@@ -359,4 +363,13 @@ impl Concerned {
             self.moved.insert(handle);
         }
     }
+}
+
+/// Whether the last error of a script is about the text that it has: an error is about the text that the script had when it was seen first.
+fn is_about(object: &::scene::Object, wrong_texts: &mut BTreeMap<i64, Hash>) -> bool {
+    let Kind::Script(script) = &object.kind else {
+        return false;
+    };
+    let version = Hash::of(&script.code);
+    *wrong_texts.entry(object.handle().raw()).or_insert(version) == version
 }

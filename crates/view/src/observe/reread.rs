@@ -42,7 +42,14 @@ impl Observer {
     /// The last errors of scripts are those in these lines, and no others.
     pub(crate) fn set_errors<'a>(&mut self, lines: impl Iterator<Item = &'a RecentLine>) {
         let before = std::mem::take(&mut self.script_errors);
+        let texts = std::mem::take(&mut self.wrong_texts);
         lines.for_each(|line| drop(self.note_errors(std::slice::from_ref(line))));
+        let errors = &self.script_errors;
+        let is_same = |script: &i64| before.get(script) == errors.get(script);
+        self.wrong_texts = texts
+            .into_iter()
+            .filter(|(script, _)| is_same(script))
+            .collect();
         let differ =
             different(&before, &self.script_errors).chain(different(&self.script_errors, &before));
         if let Some(reread) = &mut self.reread {

@@ -186,6 +186,17 @@ fn errors_belong_to_their_script() {
         (&line["level"], &line["line"], &line["handle"]),
         (&"scripterrors".into(), &3.into(), &script.raw().into())
     );
+    // What was wrong with another text says nothing about the new one.
+    stage
+        .scene
+        .try_modify(script, ::scene::Field::Script, |object| {
+            object.script_mut()?.code = b"print('yes')".to_vec();
+            Ok(())
+        })
+        .expect("the script is there");
+    let changed = &stage.update()["objects"][0];
+    assert_ne!(changed["version"], object["version"]);
+    assert!(changed["error"].is_null());
 }
 
 #[test]

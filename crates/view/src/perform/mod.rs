@@ -3,9 +3,10 @@
 mod button_interfaces;
 mod graph;
 mod inspector;
+mod scripts;
 mod values;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::observe::handle_of;
 use super::request::Action;
@@ -42,7 +43,11 @@ pub(crate) fn perform(
                 .collect();
             sim.scene_mut().select(&handles);
         }
-        Action::Inspect(None) | Action::Watch(_) | Action::Show { .. } | Action::Sample(_) => {}
+        Action::Inspect(None)
+        | Action::Watch(_)
+        | Action::Show { .. }
+        | Action::Sample(_)
+        | Action::Check(_) => {}
         Action::Inspect(Some(handle)) => {
             let rows = rows(sim, *handle)?.into_iter().map(|(_, row)| row);
             return Ok(rows.collect());
@@ -52,14 +57,12 @@ pub(crate) fn perform(
             name,
             value,
         } => set(sim, *handle, name, value)?,
-        Action::Script(handle) => {
-            let (name, language, text) = sim
-                .script_text(*handle)
-                .map_err(|error| error.to_string())?;
-            return Ok(
-                json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }),
-            );
-        }
+        Action::Script(handle) => return scripts::read(sim, *handle),
+        Action::SaveScript {
+            handle,
+            text,
+            version,
+        } => return scripts::save(sim, *handle, text, version),
         Action::Configure(handle) => {
             return sim
                 .configure(*handle)
@@ -134,6 +137,7 @@ fn run(sim: &mut Simulator, code: &str, lines: &mut Vec<RecentLine>) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
     use simulator::{Options, ScriptKind};
 
     fn simulator() -> Simulator {
@@ -284,21 +288,5 @@ mod tests {
             states.contains(&State::LastBeforePause) && states.contains(&State::Paused),
             "{states:?}"
         );
-    }
-
-    #[test]
-    fn texts_of_scripts_are_read() {
-        let mut sim = simulator();
-        let script = sim
-            .add_script(ScriptKind::Customization, "", b"-- \xff hello")
-            .unwrap()
-            .handle();
-        let read = done(&mut sim, &Action::Script(script)).unwrap();
-        assert_eq!(
-            (&read["language"], &read["text"]),
-            (&"lua".into(), &"-- \u{fffd} hello".into())
-        );
-        assert!(done(&mut sim, &Action::Script(-99)).is_err());
-        assert!(done(&mut sim, &Action::Graph(script)).is_err());
     }
 }

@@ -9,6 +9,8 @@ use serde_json::{Map, Value, json};
 
 /// Code and texts of a page, bytes.
 const MAX_TEXT_LENGTH: usize = 100_000;
+/// The text of a script, bytes.
+const MAX_SCRIPT_LENGTH: usize = 4_000_000;
 /// Handles in one request.
 const MAX_HANDLES: usize = 100_000;
 /// Steps of one request.
@@ -37,6 +39,14 @@ pub(crate) enum Action {
         value: Value,
     },
     Script(i64),
+    /// A new text for the script that has the text of that version.
+    SaveScript {
+        handle: i64,
+        text: String,
+        version: String,
+    },
+    /// Whether a text is Lua.
+    Check(String),
     /// Opens the settings of a model, which a script of it has.
     Configure(i64),
     Watch(Vec<i64>),
@@ -107,6 +117,14 @@ impl Action {
                 value,
             } => json!({ "do": "set", "handle": handle, "name": name, "value": value }),
             Self::Script(handle) => json!({ "do": "script", "handle": handle }),
+            Self::SaveScript {
+                handle,
+                text,
+                version,
+            } => {
+                json!({ "do": "saveScript", "handle": handle, "text": text, "version": version })
+            }
+            Self::Check(code) => json!({ "do": "check", "code": code }),
             Self::Configure(handle) => json!({ "do": "configure", "handle": handle }),
             Self::Watch(handles) => json!({ "do": "watch", "handles": handles }),
             Self::Show { contacts } => json!({ "do": "show", "contacts": contacts }),
@@ -130,6 +148,7 @@ impl Action {
             self,
             Self::Inspect(_)
                 | Self::Script(_)
+                | Self::Check(_)
                 | Self::Watch(_)
                 | Self::Show { .. }
                 | Self::Sample(_)
@@ -193,6 +212,12 @@ fn action(members: &Members) -> Result<Action, String> {
             value: members.get("value").cloned().ok_or("`value` is missing")?,
         },
         "script" => Action::Script(handle(members)?),
+        "saveScript" => Action::SaveScript {
+            handle: handle(members)?,
+            text: text_up_to(members, "text", MAX_SCRIPT_LENGTH)?,
+            version: text(members, "version")?,
+        },
+        "check" => Action::Check(text_up_to(members, "code", MAX_SCRIPT_LENGTH)?),
         "configure" => Action::Configure(handle(members)?),
         "watch" => Action::Watch(handles(members)?),
         "show" => Action::Show {
@@ -273,11 +298,15 @@ fn handles(members: &Members) -> Result<Vec<i64>, String> {
 }
 
 fn text(members: &Members, name: &str) -> Result<String, String> {
+    text_up_to(members, name, MAX_TEXT_LENGTH)
+}
+
+fn text_up_to(members: &Members, name: &str, length: usize) -> Result<String, String> {
     let text = members
         .get(name)
         .and_then(Value::as_str)
         .ok_or_else(|| format!("`{name}` is a text"))?;
-    if text.len() > MAX_TEXT_LENGTH {
+    if text.len() > length {
         return Err(format!("`{name}` is too long"));
     }
     Ok(text.to_owned())

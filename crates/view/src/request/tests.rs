@@ -61,6 +61,9 @@ fn what_is_none_is_refused_with_a_reason() {
         r#"{"id":1,"do":"inspect","handle":1.5}"#,
         r#"{"id":1,"do":"set","handle":1,"name":"a"}"#,
         r#"{"id":1,"do":"run"}"#,
+        r#"{"id":1,"do":"saveScript","handle":7,"text":"x = 1"}"#,
+        r#"{"id":1,"do":"saveScript","handle":7,"text":5,"version":"a"}"#,
+        r#"{"id":1,"do":"check"}"#,
     ] {
         assert!(
             parse(text).is_err_and(|reason| !reason.is_empty()),
@@ -87,6 +90,8 @@ fn requests_come_back_from_a_capture() {
         r#"{"id":1,"do":"inspect","handle":7}"#,
         r#"{"id":1,"do":"set","handle":3,"name":"alias","value":[1,2.5,"x",null]}"#,
         r#"{"id":1,"do":"script","handle":7}"#,
+        r#"{"id":1,"do":"saveScript","handle":7,"text":"x = 1","version":"00ff"}"#,
+        r#"{"id":1,"do":"check","code":"x = 1"}"#,
         r#"{"id":1,"do":"configure","handle":7}"#,
         r#"{"id":1,"do":"watch","handles":[]}"#,
         r#"{"id":1,"do":"show","contacts":true}"#,

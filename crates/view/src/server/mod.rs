@@ -2,6 +2,7 @@
 
 mod assets;
 mod recorded;
+mod reference;
 mod site;
 mod visitor;
 

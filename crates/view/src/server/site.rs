@@ -6,6 +6,7 @@ use ring::rand::{SecureRandom, SystemRandom};
 
 use super::Shared;
 use super::assets::{self, Asset};
+use super::reference;
 use super::visitor::Page;
 use crate::blobs::{Blob, Hash};
 use io::{Site, SiteReply, Visitor};
@@ -62,6 +63,9 @@ impl Site for ViewSite {
         if name == "recording" {
             return no_recording();
         }
+        if name == reference::NAME {
+            return compressed_json(reference::compressed());
+        }
         let name = if name.is_empty() { "index.html" } else { name };
         assets::find(name).map_or_else(not_found, |asset| asset_reply(asset, known))
     }
@@ -114,6 +118,18 @@ fn blob_reply(blob: Arc<Blob>) -> SiteReply {
         status: 200,
         headers,
         body: blob,
+    }
+}
+
+fn compressed_json(gzip: &'static [u8]) -> SiteReply {
+    let mut headers = common_headers();
+    headers.push(("Cache-Control", "no-cache".to_owned()));
+    headers.push(("Content-Type", assets::content_type(".json").to_owned()));
+    headers.push(("Content-Encoding", "gzip".to_owned()));
+    SiteReply {
+        status: 200,
+        headers,
+        body: Arc::new(gzip),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::mirror::{Message, Revision};
 use crate::request::{Action, Request};
 use crate::sample::Following;
 use io::{SiteMessage, Visitor};
+use script::syntax_error;
 
 /// A connected page.
 pub(super) struct Page {
@@ -78,6 +79,11 @@ impl Page {
                     .change_demand(self.id, |demand| demand.inspected = *handle);
                 return Ok(Some(request));
             }
+            Action::Check(code) => {
+                // It needs no simulation, and so an answer comes also while that is busy.
+                lock(&self.replies).push_back(reply(&request.id, Ok(checked(code))));
+                return Ok(None);
+            }
             _ => return Ok(Some(request)),
         }
         lock(&self.replies).push_back(reply(&request.id, Ok(Value::Bool(true))));
@@ -114,6 +120,14 @@ impl Page {
             )));
         }
         messages
+    }
+}
+
+/// The error in a text that is no Lua; null where it is.
+fn checked(code: &str) -> Value {
+    match syntax_error(code.as_bytes()) {
+        Some(error) => json!({ "line": error.line, "message": error.message }),
+        None => Value::Null,
     }
 }
 
