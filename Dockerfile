@@ -3,7 +3,7 @@
 #     docker build -t swanilda .
 #     docker run --rm -v "$PWD:/work" swanilda run robot.ttt --time 5
 FROM rust:1.89-slim-bookworm AS build
-RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ make pkg-config && rm -rf /var/lib/apt/lists/*
+RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ make npm pkg-config && rm -rf /var/lib/apt/lists/*
 WORKDIR /source
 COPY . .
 RUN cargo build --profile dist --locked --bin swanilda && cargo build --profile dist --locked -p swanilda-library

@@ -14,6 +14,16 @@ fn the_page_in_a_browser() {
 }
 
 #[test]
+fn scripts_are_changed_in_a_browser() {
+    check_in_browser("view_script.py");
+}
+
+#[test]
+fn scripts_are_changed_without_the_editor_component() {
+    check_in_browser_with("view_script.py", &[Path::new("plain")]);
+}
+
+#[test]
 fn a_capture_in_a_browser() {
     check_in_browser("view_capture.py");
 }

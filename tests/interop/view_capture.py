@@ -81,10 +81,13 @@ def the_script_is_changed(browser):
     browser.evaluate("swanilda.openScriptOf([...swanilda.store.objects.values()].find(object => object.objectType === 'script').handle)")
     browser.shows("document.querySelector('#script .code-line') != null", "the script")
     browser.evaluate("document.querySelector('#script [aria-label=\"Change the text\"]').click()")
-    same("its text", browser.evaluate("swanilda.script.text.value.includes('too far')"), True)
-    browser.evaluate("swanilda.script.text.value = \"print('another')\\nfunction sysCall_init() end\"")
-    browser.evaluate("swanilda.script.restart.click()")
+    browser.shows("swanilda.script.editing.editor != null", "the editor")
+    same("its text", browser.evaluate("swanilda.script.editing.draft.text.includes('too far')"), True)
+    browser.evaluate("swanilda.script.editing.editor.setText(\"print('another')\\nfunction sysCall_init() end\")")
+    browser.evaluate("swanilda.script.editing.saveButton.click()")
     browser.shows(f"{LINES}.includes('another')", "the new script")
+    browser.shows("swanilda.script.editing.closeButton.textContent == 'Close'", "nothing to save")
+    browser.evaluate("swanilda.script.editing.closeButton.click()")
     browser.shows("document.querySelector('#script .code-line').textContent.includes('another')", "its text")
 
 

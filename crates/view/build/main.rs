@@ -1,6 +1,7 @@
 //! Lists the files of the viewer's page, joined and compressed.
 
 mod bundle;
+mod editor;
 mod page;
 
 use std::env;
@@ -13,7 +14,11 @@ use std::path::PathBuf;
 fn main() {
     println!("cargo:rerun-if-changed=src/page");
     println!("cargo:rerun-if-changed=build");
+    println!("cargo:rerun-if-changed=editor");
+    println!("cargo:rerun-if-env-changed={}", editor::SETTING);
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    page::compress(&package.join("src/page"), &out);
+    let mut files = page::files(&package.join("src/page"));
+    files.extend(editor::files(&package, &out));
+    page::compress(files, &out);
 }

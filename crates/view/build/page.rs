@@ -14,20 +14,27 @@ use crate::bundle;
 /// The module that imports all others.
 const MAIN: &str = "main.js";
 
-/// Writes the files of the page as gzip, and a table of them by name.
-pub fn compress(root: &Path, out: &Path) {
+/// The files of the page: names and contents.
+pub fn files(root: &Path) -> Vec<(String, String)> {
     let read = |name: &str| fs::read_to_string(root.join(name)).ok();
     let text = |name: &str| read(name).unwrap_or_else(|| panic!("{name} is part of the page"));
     let program = bundle::join(MAIN, &read)
         .expect("the modules of the page can be joined (docs/VIEW_PROTOCOL.md, One file)");
-    let files = [
+    [
         ("index.html", text("index.html")),
         (MAIN, bundle::stripped(&program)),
         ("style.css", without_comments(&styles(root))),
-    ];
+    ]
+    .map(|(name, content)| (name.to_owned(), content))
+    .to_vec()
+}
+
+/// Writes files as gzip, and a table of them by name.
+pub fn compress(mut files: Vec<(String, String)>, out: &Path) {
+    files.sort();
     let mut table = String::from("&[\n");
     for (name, content) in files {
-        let path = out.join(format!("{name}.gz"));
+        let path = out.join(format!("{}.gz", name.replace('/', "_")));
         fs::write(&path, gzip(content.as_bytes())).expect("the output folder is writable");
         let mut hasher = DefaultHasher::new();
         hasher.write(content.as_bytes());

@@ -41,6 +41,7 @@ pub(super) fn content_type(name: &str) -> &'static str {
         Some("css") => "text/css; charset=utf-8",
         Some("json") => "application/json; charset=utf-8",
         Some("svg") => "image/svg+xml; charset=utf-8",
+        Some("txt") => "text/plain; charset=utf-8",
         Some("png") => "image/png",
         _ => "application/octet-stream",
     }
@@ -50,6 +51,10 @@ pub(super) fn content_type(name: &str) -> &'static str {
 #[cfg(test)]
 #[path = "../../build/bundle.rs"]
 mod bundle;
+#[cfg(test)]
+#[allow(dead_code, reason = "most of it runs when Swanilda is built")]
+#[path = "../../build/editor.rs"]
+mod editor;
 
 #[cfg(test)]
 mod tests {
@@ -60,6 +65,8 @@ mod tests {
         assert!(ASSETS.is_sorted_by_key(|asset| asset.name));
         let page = find("index.html").expect("there is a page");
         assert_eq!(page.gzip[..2], [0x1f, 0x8b]);
+        // Also of builds without the component: the page asks for it.
+        assert!(page_file("editor/editor.js").is_some_and(|text| text.contains("makeEditor")));
         assert!(find("../index.html").is_none() && find("").is_none());
         assert!(
             ASSETS

@@ -1,35 +1,7 @@
 // Scripts to read and change: line numbers, colours for Lua, the line of the last error.
 import { el, iconButton, setText } from '../dom.js';
-
-const KEYWORDS = new Set('and break do else elseif end false for function goto if in local nil not or repeat return then true until while'.split(' '));
-const TOKENS = /(--\[(=*)\[[\s\S]*?(?:\]\2\]|$)|--[^\n]*)|(\[(=*)\[[\s\S]*?(?:\]\4\]|$)|"(?:\\[\s\S]|[^"\\\n])*"?|'(?:\\[\s\S]|[^'\\\n])*'?)|(\b(?:0[xX][\da-fA-F]+|\d+\.?\d*(?:[eE][+-]?\d+)?)\b)|([A-Za-z_]\w*)/g;
-
-/** Pieces of Lua with their kinds. @param {string} code @returns {{kind: string, text: string}[]} */
-export function pieces(code) {
-  const found = [];
-  let at = 0;
-  for (const match of code.matchAll(TOKENS)) {
-    if (match.index > at) found.push({ kind: '', text: code.slice(at, match.index) });
-    const [text, comment, , string, , digits, word] = match;
-    const kind = comment ? 'comment' : string ? 'string' : digits ? 'number' : KEYWORDS.has(word) ? 'keyword' : '';
-    found.push({ kind, text });
-    at = match.index + text.length;
-  }
-  found.push({ kind: '', text: code.slice(at) });
-  return found;
-}
-
-/** The pieces by lines. */
-function lines(code, isLua) {
-  const all = [[]];
-  for (const { kind, text } of isLua ? pieces(code) : [{ kind: '', text: code }]) {
-    text.split('\n').forEach((part, i) => {
-      if (i > 0) all.push([]);
-      if (part) all.at(-1).push({ kind, text: part });
-    });
-  }
-  return all;
-}
+import { codeRows } from './code_lines.js';
+import { ScriptEditing } from './script_editing.js';
 
 export class ScriptPane {
   constructor(pane, page) {
@@ -37,59 +9,68 @@ export class ScriptPane {
     this.title = el('h3', { class: 'inspected' });
     this.error = el('p', { class: 'script-error', role: 'status', hidden: true });
     this.code = el('div', { class: 'code', tabindex: 0, role: 'region', 'aria-label': 'Text of the script' });
-    this.edit = iconButton('edit', 'Change the text', () => this._change(true));
-    this.text = el('textarea', { class: 'code mono', 'aria-label': 'New text of the script', spellcheck: 'false' });
-    this.restart = el('button', { type: 'button', class: 'answer-button', title: 'The script begins anew with this text', onclick: () => this._restart() }, 'Restart with this text');
-    const cancel = el('button', { type: 'button', class: 'answer-button', onclick: () => this._change(false) }, 'Cancel');
-    this.editing = el('div', { class: 'script-editing', hidden: true }, this.text, el('div', { class: 'question-buttons' }, this.restart, cancel));
-    pane.append(el('div', { class: 'inspected-head' }, this.title, this.edit), this.error, this.code, this.editing);
+    this.edit = iconButton('edit', 'Change the text', () => this._change());
+    this.editing = new ScriptEditing(page, { changed: () => this._showTitle(), closed: () => this._load() });
+    pane.append(el('div', { class: 'inspected-head' }, this.title, this.edit), this.error, this.code, this.editing.element);
     page.store.on('scene', () => this._showPermission());
-    page.store.on('objects', (changed) => changed.has(this.handle) && this._showError());
+    page.store.on('objects', (changed) => changed.has(this.handle) && this._changed());
   }
 
   /** @param {number} handle @param {number} [line] to show; otherwise that of the last error */
   async open(handle, line) {
-    this.handle = handle;
-    this._change(false);
-    this._showPermission();
     this.page.showPanel('script', true);
-    setText(this.title, this.page.store.path(handle));
+    if (handle === this.handle && this.editing.draft) return void (line && this.editing.editor?.reveal(line));
+    this.editing.end();
+    this.handle = handle;
+    await this._load(line);
+  }
+
+  /** Shows the script as it is now, or the text of it that is not saved. */
+  async _load(line) {
+    const { handle } = this;
+    this._showTitle();
     const script = await this.page.source.request('script', { handle }).catch((error) => ({ text: '', failure: error.message }));
-    if (handle !== this.handle) return;
-    this.source = script.text;
-    const rows = lines(script.text ?? '', (script.language ?? 'lua') === 'lua').map((parts, i) => this._line(parts, i + 1));
-    this.code.replaceChildren(...rows);
-    if (script.failure) this.code.replaceChildren(el('p', { class: 'hint' }, script.failure));
+    if (handle !== this.handle || this.editing.draft) return;
+    this.script = script.failure ? null : { ...script, handle };
+    if (this.script && this.page.canWrite && this.editing.has(handle)) return this._change(line);
+    this._read(script, line);
+  }
+
+  /** Shows the text to read. */
+  _read(script, line) {
+    this.code.hidden = false;
+    this.code.replaceChildren(...(script.failure ? [el('p', { class: 'hint' }, script.failure)] : codeRows(script.text, script.language)));
+    this._showPermission();
     this._showError();
-    this._reveal(line ?? this.page.store.objects.get(handle)?.error?.line);
+    this._reveal(line ?? this.page.store.objects.get(this.handle)?.error?.line);
+  }
+
+  /** Shows the text to change. */
+  _change(line) {
+    this.code.hidden = true;
+    this.edit.hidden = true;
+    this._showError();
+    this.editing.begin(this.script, line);
+  }
+
+  /** The script is another one now, or has got an error. */
+  _changed() {
+    this._showError();
+    const version = this.page.store.objects.get(this.handle)?.version;
+    if (this.editing.draft) this.editing.scriptChanged();
+    else if (version && this.script && version !== this.script.version) this._load();
+  }
+
+  _showTitle() {
+    const isChanged = this.editing.hasChanges;
+    setText(this.title, (isChanged ? '● ' : '') + this.page.store.path(this.handle));
+    this.title.title = isChanged ? 'Not saved' : '';
   }
 
   /** Texts can be changed where pages may change something. */
   _showPermission() {
-    this.edit.hidden = !this.page.canWrite || !this.editing.hidden;
-    this.restart.disabled = !this.page.canWrite;
-  }
-
-  /** Shows the text to read, or to change. @param {boolean} on */
-  _change(on) {
-    this.code.hidden = on;
-    this.editing.hidden = !on;
-    this._showPermission();
-    if (!on) return;
-    this.text.value = this.source ?? '';
-    this.text.focus();
-  }
-
-  async _restart() {
-    const { handle } = this;
-    await this.page.ask('set', { handle, name: 'code', value: this.text.value });
-    await this.page.ask('run', { code: `sim.initScript(${handle})` });
-    if (handle === this.handle) this.open(handle);
-  }
-
-  _line(parts, number) {
-    const text = parts.map(({ kind, text }) => (kind ? el('span', { class: `lua-${kind}` }, text) : text));
-    return el('div', { class: 'code-line', 'data-line': number }, el('span', { class: 'line-number', 'aria-hidden': 'true' }, number), el('code', {}, ...text));
+    this.edit.hidden = !this.page.canWrite || !this.script || !!this.editing.draft;
+    this.editing.showPermission();
   }
 
   _showError() {
@@ -98,6 +79,7 @@ export class ScriptPane {
     setText(this.error, error ? `Line ${error.line ?? '?'}: ${error.message}` : '');
     for (const row of this.code.querySelectorAll('.wrong')) row.classList.remove('wrong');
     if (error?.line) this.code.children[error.line - 1]?.classList.add('wrong');
+    if (this.editing.draft) this.editing.showError();
   }
 
   _reveal(line) {

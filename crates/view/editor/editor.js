@@ -1,0 +1,123 @@
+// The editor of scripts in the page of the viewer: CodeMirror with what Swanilda knows of its functions.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
+import { defaultKeymap, history, historyField, historyKeymap, indentWithTab } from '@codemirror/commands';
+import { bracketMatching, indentOnInput, indentUnit, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
+import { lua } from '@codemirror/legacy-modes/mode/lua';
+import { python } from '@codemirror/legacy-modes/mode/python';
+import { forceLinting, lintGutter, linter, lintKeymap } from '@codemirror/lint';
+import { highlightSelectionMatches, search, searchKeymap } from '@codemirror/search';
+import { EditorState, StateEffect } from '@codemirror/state';
+import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, showPanel } from '@codemirror/view';
+import { classHighlighter } from '@lezer/highlight';
+import { calledAt, Names } from './names.js';
+import { description, offers } from './offers.js';
+
+const MODES = { lua, python };
+const LOOKED_BACK = 2000; // letters before the cursor in which the call it is in may begin
+const FIELDS = { history: historyField };
+const checkAgain = StateEffect.define();
+
+/** The reference is fetched when it is needed first. */
+let names = null;
+function load() {
+  names ??= fetch(new URL('reference.json', import.meta.url)).then((reply) => reply.json()).then((table) => new Names(table));
+  names.catch(() => (names = null));
+  return names;
+}
+
+/** The function at the cursor, in a line below the text. */
+function signatures(view) {
+  const dom = document.createElement('div');
+  dom.className = 'cm-signature';
+  const show = async () => {
+    const { state } = view;
+    const { head } = state.selection.main;
+    const name = calledAt(state.sliceDoc(Math.max(0, head - LOOKED_BACK), head), state.sliceDoc(head, head + 100));
+    const entry = name && (await load().catch(() => null))?.find(name, state.doc.toString());
+    const text = entry ? [entry.signature, entry.text].filter(Boolean).join('  –  ') : '';
+    if (dom.textContent !== text) Object.assign(dom, { textContent: text, title: text });
+  };
+  show();
+  return { dom, update: (update) => (update.docChanged || update.selectionSet) && show() };
+}
+
+const hovered = hoverTooltip(async (view, pos) => {
+  const line = view.state.doc.lineAt(pos);
+  const at = pos - line.from;
+  const before = line.text.slice(0, at).match(/[A-Za-z_][\w.:]*$|$/)[0];
+  const after = line.text.slice(at).match(/^\w*/)[0];
+  const entry = (await load()).find(before + after, view.state.doc.toString());
+  return entry ? { pos: pos - before.length, end: pos + after.length, above: true, create: () => ({ dom: description(entry) }) } : null;
+});
+
+/** Errors: those of the syntax, which `check` finds, and the last one of the run, which moves with its line. */
+class Errors {
+  constructor(check) {
+    Object.assign(this, { check, place: null });
+  }
+
+  get extension() {
+    const moves = EditorView.updateListener.of((update) => {
+      if (this.place !== null && update.docChanged) this.place = update.changes.mapPos(this.place);
+    });
+    const asked = (update) => update.transactions.some((transaction) => transaction.effects.some((effect) => effect.is(checkAgain)));
+    return [moves, lintGutter(), linter((view) => this._found(view), { delay: 400, needsRefresh: asked })];
+  }
+
+  async _found(view) {
+    const { doc } = view.state;
+    const wrong = await this.check(doc.toString()).catch(() => null);
+    const lines = [];
+    if (wrong) lines.push([doc.line(Math.min(Math.max(wrong.line, 1), doc.lines)), wrong.message]);
+    if (this.place !== null) lines.push([doc.lineAt(Math.min(this.place, doc.length)), this.message]);
+    return lines.map(([{ from, to }, message]) => ({ from, to, severity: 'error', message }));
+  }
+
+  /** @param {{line?: number, message: string} | null} error of the run */
+  show(view, error) {
+    const { doc } = view.state;
+    this.place = error?.line >= 1 && error.line <= doc.lines ? doc.line(error.line).from : null;
+    this.message = error?.message;
+    view.dispatch({ effects: checkAgain.of(null) });
+    forceLinting(view);
+  }
+}
+
+function extensions({ language, label, onChange, onSave }, errors) {
+  const save = { run: () => (onSave(), true), preventDefault: true };
+  const mode = MODES[language];
+  return [
+    keymap.of([{ key: 'Mod-s', ...save }, { key: 'Mod-Enter', ...save }]),
+    lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
+    indentUnit.of('    '), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(), highlightSelectionMatches(),
+    mode ? StreamLanguage.define(mode) : [], syntaxHighlighting(classHighlighter),
+    autocompletion({ override: [offers(load, language)] }), hovered, search({ top: true }), showPanel.of(signatures), errors.extension,
+    keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap, indentWithTab]),
+    EditorView.updateListener.of((update) => update.docChanged && onChange(update.state.doc.toString())),
+    EditorView.contentAttributes.of({ 'aria-label': label, spellcheck: 'false', tabindex: '0' }),
+  ];
+}
+
+/**
+ * An editor in an element.
+ * @param {{parent: HTMLElement, text: string, kept?: any, language: string, label: string, onChange: (text: string) => void, onSave: () => void, check: (text: string) => Promise<{line: number, message: string} | null>}} options
+ * `kept` is what `keep` of an earlier one has returned: its text, its selection, and what can be undone.
+ */
+export function makeEditor(options) {
+  const errors = new Errors(options.check);
+  const config = { extensions: extensions(options, errors) };
+  const state = options.kept ? EditorState.fromJSON(options.kept, config, FIELDS) : EditorState.create({ doc: options.text, ...config });
+  const view = new EditorView({ parent: options.parent, state });
+  return {
+    view,
+    keep: () => view.state.toJSON(FIELDS),
+    setText: (text) => view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }),
+    showError: (error) => errors.show(view, error),
+    reveal(number) {
+      const line = view.state.doc.line(Math.min(Math.max(number, 1), view.state.doc.lines));
+      view.dispatch({ selection: { anchor: line.from }, effects: EditorView.scrollIntoView(line.from, { y: 'center' }) });
+    },
+    focus: () => view.focus(),
+    destroy: () => view.destroy(),
+  };
+}
