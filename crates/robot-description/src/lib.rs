@@ -7,6 +7,7 @@
 //! | read and write URDF | [`urdf::read`], [`urdf::write`] |
 //! | read models and worlds in SDF | [`sdf::read`] |
 //! | read models in MJCF | [`mjcf::read`] |
+//! | read what sensors and controllers have to do with ROS 2 | [`ros::of_urdf`], [`ros::of_sdf`], [`ros::of_yaml`], [`ros::of_toml`] |
 //! | see what was read | [`Robot`], and the [`Warning`]s beside it |
 //! | find the meshes that a file names | [`Search`] |
 //! | place the links at positions of the joints | [`Robot::link_poses`] |
@@ -30,6 +31,7 @@ mod model;
 mod positions;
 mod report;
 mod resolve;
+pub mod ros;
 pub mod sdf;
 mod tree;
 pub mod urdf;

@@ -2,7 +2,7 @@
 
 use robot_description::mjcf::{self, Files, Triangles};
 use robot_description::sdf::{self, Included};
-use robot_description::{Robot, urdf};
+use robot_description::{Robot, ros, urdf};
 use test_support::random::Random;
 
 const ROUNDS: usize = 4000;
@@ -74,6 +74,40 @@ fn urdf() {
             let again =
                 urdf::read(urdf::write(&parsed.value).as_bytes()).expect("what is written is read");
             assert_eq!(again.value.links.len(), parsed.value.links.len());
+        }
+    }
+}
+
+const ROS: &str = r#"<robot name="r"><ros2_control name="h"><joint name="j"><command_interface name="position"><param name="min">-1</param></command_interface>
+<state_interface name="position"><param name="initial_value">1</param></state_interface></joint></ros2_control><gazebo><plugin filename="gz-sim-diff-drive-system"><left_joint>a</left_joint>
+<right_joint>b</right_joint><wheel_separation>1</wheel_separation><wheel_radius>1</wheel_radius></plugin><plugin filename="gz_ros2_control"><parameters>x.yaml</parameters></plugin></gazebo>
+<gazebo reference="l"><sensor name="s" type="rgbd_camera"><pose>0 0 0 1 2 3</pose><camera><image><width>10</width></image></camera></sensor>
+<sensor name="t" type="ray"><ray><range><min>1</min><max>2</max></range></ray></sensor></gazebo></robot>"#;
+
+const YAML: &str = "controller_manager:\n  ros__parameters:\n    a: {type: diff_drive_controller}\n    b:\n      type: \"joint_trajectory_controller/JointTrajectoryController\"\na:\n  ros__parameters:\n    left_wheel_names: [x, 'y',\n      z]\n    linear: {x: {max_velocity: 1.5}}\nb:\n  ros__parameters:\n    joints:\n    - é\n    - k # one\n";
+
+const TOML: &str = "namespace = \"r\"\n[[sensor]]\nname = \"s\"\ntype = \"lidar\"\npose = [0, 0, 1, 0, 0, 0.5]\n[[controller]]\nname = \"c\"\ntype = \"forward_command_controller\"\njoints = ['j']\nlinear.x = {y = 2}\n[[joint]]\nname = \"j\"\n";
+
+#[test]
+fn ros_interfaces() {
+    let mut random = Random::new(4);
+    let robot = urdf::read(URDF.as_bytes()).expect("URDF").value;
+    for _ in 0..ROUNDS {
+        let tags = [
+            ros::of_urdf(&damaged(&mut random, ROS)).ok(),
+            ros::of_sdf(&damaged(&mut random, ROS)).ok(),
+            Some(ros::of_yaml(&damaged(&mut random, YAML))),
+            ros::of_toml(&damaged(&mut random, TOML)).ok(),
+        ];
+        for parsed in tags.into_iter().flatten() {
+            let mut interface = parsed.value.fitting(&robot).value;
+            interface.add_usual_controllers();
+            let numbers = interface.parts.iter().flat_map(|part| part.values.values());
+            assert!(
+                numbers.clone().all(
+                    |value| !matches!(value, ros::Value::Number(number) if !number.is_finite())
+                )
+            );
         }
     }
 }

@@ -5,5 +5,5 @@ mod link;
 mod read;
 mod write;
 
-pub use read::read;
+pub use read::{OF_GAZEBO, read};
 pub use write::write;

@@ -74,6 +74,7 @@ const KNOWN: &[&str] = &[
     "material",
     "sensor",
     "gazebo",
+    "ros2_control",
     "transmission",
 ];
 
@@ -210,9 +211,12 @@ fn report_structure(source: &mut Source, nodes: &[Node], robot: &mut Robot) {
     }
 }
 
-/// Sensors of Gazebo are another format, and the rest of it is for Gazebo only.
+/// What is said of a sensor of Gazebo.
+pub const OF_GAZEBO: &str = "a sensor in Gazebo's format, which only --ros2 makes";
+
+/// Sensors of Gazebo are another format, which [`crate::ros`] reads, and the rest of it is for Gazebo only.
 fn report_gazebo(source: &mut Source, node: Node) {
     for sensor in elements(node).filter(|child| child.tag_name().name() == "sensor") {
-        source.leave_out(sensor, "a sensor in Gazebo's format");
+        source.leave_out(sensor, OF_GAZEBO);
     }
 }

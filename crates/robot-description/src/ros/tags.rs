@@ -1,0 +1,189 @@
+//! `<ros2_control>`, `<gazebo>` and `<transmission>` of URDF; sensors and plugins of SDF.
+
+use bounded_xml::Node;
+
+use super::notes::Notes;
+use super::{Command, Interface, gazebo, plugins};
+use crate::report::{Parsed, ReadError};
+use crate::xml::{self, Source, elements, named, short};
+
+/// What a URDF says about its sensors and controllers.
+///
+/// # Errors
+/// If it is no XML, or exceeds a limit.
+pub fn of_urdf(bytes: &[u8]) -> Result<Parsed<Interface>, ReadError> {
+    with_root(bytes, |root, source, notes| {
+        let mut interface = Interface::default();
+        for node in elements(root) {
+            match node.tag_name().name() {
+                "ros2_control" => read_control(node, &mut interface, source, notes),
+                "gazebo" => read_gazebo(node, &mut interface, source, notes),
+                "transmission" => {
+                    let message = "transmissions of ROS 1 are not read: <ros2_control> says what joints are told";
+                    notes.add(source.line(node), "transmission", message);
+                }
+                _ => {}
+            }
+        }
+        interface
+    })
+}
+
+/// What an SDF says about sensors and plugins of its first model.
+///
+/// # Errors
+/// If it is no XML, or exceeds a limit.
+pub fn of_sdf(bytes: &[u8]) -> Result<Parsed<Interface>, ReadError> {
+    with_root(bytes, |root, source, notes| {
+        let mut interface = Interface::default();
+        let mut models = root.descendants().filter(|node| node.has_tag_name("model"));
+        let Some(model) = models.next() else {
+            return interface;
+        };
+        for plugin in named(model, "plugin") {
+            plugins::read(plugin, &mut interface, source, notes);
+        }
+        for link in named(model, "link") {
+            let name = link.attribute("name").unwrap_or_default();
+            for sensor in named(link, "sensor") {
+                interface
+                    .parts
+                    .extend(gazebo::read(sensor, name, source, notes));
+            }
+        }
+        interface
+    })
+}
+
+fn with_root(
+    bytes: &[u8],
+    read: impl FnOnce(Node, &Source, &mut Notes) -> Interface,
+) -> Result<Parsed<Interface>, ReadError> {
+    let before = xml::lines_before(bytes);
+    let text = xml::text_of(bytes)?;
+    let document = xml::document(&text, before)?;
+    let source = Source::new(&text, before);
+    let mut notes = Notes::default();
+    let interface = read(document.root_element(), &source, &mut notes);
+    Ok(notes.finish(interface))
+}
+
+/// Physical parameters of links and joints that Gazebo has beside those of URDF.
+const OF_PHYSICS: [&str; 22] = [
+    "material",
+    "mu1",
+    "mu2",
+    "mu",
+    "kp",
+    "kd",
+    "fdir1",
+    "minDepth",
+    "maxVel",
+    "maxContacts",
+    "selfCollide",
+    "turnGravityOff",
+    "gravity",
+    "static",
+    "dampingFactor",
+    "implicitSpringDamper",
+    "provideFeedback",
+    "preserveFixedJoint",
+    "disableFixedJointLumping",
+    "laserRetro",
+    "visual",
+    "collision",
+];
+
+fn read_gazebo(node: Node, interface: &mut Interface, source: &Source, notes: &mut Notes) {
+    let link = node.attribute("reference").unwrap_or_default().trim();
+    for child in elements(node) {
+        let name = child.tag_name().name();
+        match name {
+            "sensor" => interface
+                .parts
+                .extend(gazebo::read(child, link, source, notes)),
+            "plugin" => plugins::read(child, interface, source, notes),
+            // They say how something is simulated, not what it publishes.
+            name if OF_PHYSICS.contains(&name) => {}
+            name => notes.add(
+                source.line(child),
+                name,
+                "not understood inside of <gazebo>",
+            ),
+        }
+    }
+}
+
+fn read_control(node: Node, interface: &mut Interface, source: &Source, notes: &mut Notes) {
+    for child in elements(node) {
+        let name = child.tag_name().name();
+        match name {
+            // Which hardware it is does not matter here, and its sensors are those of <gazebo>.
+            "hardware" | "sensor" => {}
+            "joint" => read_joint(child, interface, source, notes),
+            name => notes.add(
+                source.line(child),
+                name,
+                "not understood inside of <ros2_control>",
+            ),
+        }
+    }
+}
+
+fn read_joint(node: Node, interface: &mut Interface, source: &Source, notes: &mut Notes) {
+    let joint = node.attribute("name").unwrap_or_default().trim().to_owned();
+    let initial = initial_position(node);
+    let mut commands: Vec<Command> = Vec::new();
+    for child in elements(node) {
+        let line = source.line(child);
+        match child.tag_name().name() {
+            "command_interface" => {
+                let interface = child.attribute("name").unwrap_or_default().trim();
+                if !matches!(interface, "position" | "velocity" | "effort") {
+                    let message = format!("'{}' is not understood", short(interface));
+                    notes.add(line, "command_interface", message);
+                    continue;
+                }
+                commands.push(Command {
+                    joint: joint.clone(),
+                    interface: interface.to_owned(),
+                    range: ["min", "max"].map(|name| number_param(child, name)),
+                    initial,
+                    line,
+                });
+            }
+            "state_interface" => {}
+            "param" => {
+                let name = child.attribute("name").unwrap_or_default();
+                notes.add(
+                    line,
+                    "param",
+                    format!("'{}' of a joint is not understood", short(name)),
+                );
+            }
+            name => notes.add(line, name, "not understood inside of <joint>"),
+        }
+    }
+    if commands.is_empty() {
+        commands.push(Command {
+            joint,
+            interface: String::new(),
+            range: [None; 2],
+            initial,
+            line: source.line(node),
+        });
+    }
+    interface.commands.extend(commands);
+}
+
+fn number_param(node: Node, name: &str) -> Option<f64> {
+    let param = named(node, "param").find(|param| param.attribute("name") == Some(name))?;
+    let number: f64 = param.text()?.trim().parse().ok()?;
+    number.is_finite().then_some(number)
+}
+
+fn initial_position(node: Node) -> Option<f64> {
+    let state =
+        named(node, "state_interface").find(|state| state.attribute("name") == Some("position"))?;
+    number_param(state, "initial_value")
+}
