@@ -668,6 +668,7 @@ class _priorityqueue:
 
 class _remote_ros2:
     def afterEnd(self, /) -> Any: ...
+    def afterStep(self, /) -> Any: ...
     def beforeStart(self, /) -> Any: ...
     def beforeStep(self, /) -> Any:
         """Whether the next step is held back.
@@ -677,8 +678,11 @@ class _remote_ros2:
         expression: extended regular expression
         text: the text
         """
-    def start(self, /) -> Any:
-        """Creates the servers; without a node of ROS 2 that is an error of the add-on.
+    def start(self, settings: Any | None = ..., /) -> Any:
+        """Creates the servers; without a node of ROS 2 that is an error of the add-on. `settings` is the TOML file of a robot, or nil.
+        """
+    def wait(self, /) -> Any:
+        """The hooks of the add-on.
         """
 
 class _remote_ws:
@@ -10464,8 +10468,8 @@ class _swanilda_plugins:
         """
 
 class _swanilda_ros2_bridge:
-    def publish(self, /) -> Any:
-        """Publishes what a step has led to.
+    def publish(self, others: Any | None = ..., /) -> Any:
+        """Publishes what a step has led to, but for the objects that are keys of a table: they have topics of their own.
         """
     def start(self, /) -> Any:
         """Creates the publishers; without a node of ROS 2 that is an error of the add-on.

@@ -42,6 +42,8 @@ pub static ALL: &[&Module] = &[
     &modules_ros::sim_ros2::REMOTE,
     #[cfg(feature = "ros2")]
     &modules_ros::sim_ros2::REMOTE_LOCKSTEP,
+    #[cfg(feature = "ros2")]
+    &modules_ros::sim_ros2::REMOTE_ROBOTS,
     &modules_geometry::sim_sdf::MODULE,
     &modules_messaging::sim_subprocess::MODULE,
     &modules_sensing::sim_surf_rec::MODULE,

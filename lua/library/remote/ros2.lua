@@ -1,6 +1,7 @@
 --[[
 The standard simulation interfaces of ROS 2 (simulation_interfaces 2.1.0), for `--ros2`: services and an action by which nodes control the
-simulation, its entities and worlds. It is an add-on, beside the one that publishes /clock, /tf and /joint_states.
+simulation, its entities and worlds; and robots with their topics (`remote.ros2.robots`). It is an add-on, which also publishes /clock, /tf and /joint_states of what
+is no such robot.
 
 A service runs in a coroutine, since some answer later: when steps were made, or when the simulation has stopped. A simulation that is paused
 by a client is held before its next step, so that neither a step nor a tick of the clock comes.
@@ -14,6 +15,8 @@ local entities = require('remote.ros2.entities')
 local spawning = require('remote.ros2.spawning')
 local worlds = require('remote.ros2.worlds')
 local initial = require('remote.ros2.initial_state')
+local bridge = require('swanilda.ros2_bridge')
+local robots = require('remote.ros2.robots')
 
 local STOPPED <const>, PLAYING <const>, PAUSED <const>, QUITTING <const>, NO_WORLD <const> = 0, 1, 2, 3, 4
 local NAMES <const> = {[0] = 'stopped', 'playing', 'paused', 'quitting', 'no world', 'loading a world'}
@@ -240,10 +243,13 @@ end
 
 ---------------------------------------------------------------- the add-on
 
---- Creates the servers; without a node of ROS 2 that is an error of the add-on.
-function M.start()
+--- Creates the servers; without a node of ROS 2 that is an error of the add-on. `settings` is the TOML file of a robot, or nil.
+function M.start(settings)
     setAutoYield(false)
     entities.matches = native.matches
+    bridge.start()
+    robots.start(settings)
+    spawning.attach, worlds.hasLoaded = robots.attachFile, robots.lookAgain
     for name, handler in pairs(SERVICES) do serve(name, handler) end
     steps = simROS2.createActionServer('/simulate_steps', 'simulation_interfaces/action/SimulateSteps',
         function() return simROS2.goal_response.accept_and_execute end,
@@ -252,11 +258,23 @@ function M.start()
 end
 
 --- The hooks of the add-on.
-M.wait = resumeDue
+function M.wait()
+    resumeDue()
+    robots.look()
+end
 
-function M.beforeStart() initial.note() end
+function M.beforeStart()
+    robots.look()
+    initial.note()
+end
 
-M.afterStep = entities.afterStep
+M.actuate = robots.actuate
+
+function M.afterStep()
+    bridge.publish(robots.owned())
+    robots.sense()
+    entities.afterStep()
+end
 
 --- Whether the next step is held back.
 function M.beforeStep()
@@ -268,6 +286,7 @@ end
 
 function M.afterEnd()
     isHeld, left = false, 0
+    robots.reset()
     resumeDue()
 end
 

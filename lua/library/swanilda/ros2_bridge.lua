@@ -1,5 +1,5 @@
 --[[
-What `--ros2-bridge` publishes after each step: the time of the simulation (`/clock`), the poses of all objects (`/tf`) and the joints (`/joint_states`).
+What `--ros2-bridge` and `--ros2` publish after each step: the time of the simulation (`/clock`), the poses of all objects (`/tf`) and the joints (`/joint_states`).
 
 Frames and joints have the names of the objects, with their parents': `Robot/Arm`. Objects without a parent are in the frame `world`. It is an add-on.
 ]]
@@ -21,10 +21,10 @@ local function poseOf(object, parent)
     return sim.multiplyPoses(frame, pose)
 end
 
-local function poses(stamp)
+local function poses(stamp, others)
     local transforms = {}
     for _, object in ipairs(sim.getObjectsInTree(sim.handle_scene)) do
-        if sim.getObjectType(object) ~= sim.sceneobject_script then
+        if not others[object] and sim.getObjectType(object) ~= sim.sceneobject_script then
             local parent = sim.getObjectParent(object)
             local pose = poseOf(object, parent)
             transforms[#transforms + 1] = {
@@ -40,14 +40,15 @@ local function poses(stamp)
     return transforms
 end
 
-local function joints(stamp)
+local function joints(stamp, others)
     local message = {header = {stamp = stamp}, name = {}, position = {}, velocity = {}, effort = {}}
     for _, joint in ipairs(sim.getObjectsInTree(sim.handle_scene, sim.object_joint_type)) do
-        if sim.getJointType(joint) ~= sim.joint_spherical then
+        if not others[joint] and sim.getJointType(joint) ~= sim.joint_spherical then
             message.name[#message.name + 1] = nameOf(joint)
             message.position[#message.position + 1] = sim.getJointPosition(joint)
             message.velocity[#message.velocity + 1] = sim.getJointVelocity(joint)
-            message.effort[#message.effort + 1] = sim.getJointForce(joint) or 0
+            -- Forces of joints are those that act on them, those of ROS what their motors do.
+            message.effort[#message.effort + 1] = -(sim.getJointForce(joint) or 0)
         end
     end
     return message
@@ -59,13 +60,14 @@ function bridge.start()
     bridge.joints = simROS2.createPublisher('/joint_states', 'sensor_msgs/msg/JointState')
 end
 
---- Publishes what a step has led to.
-function bridge.publish()
+--- Publishes what a step has led to, but for the objects that are keys of a table: they have topics of their own.
+function bridge.publish(others)
     local stamp = simROS2.getSimulationTime()
     simROS2.publish(bridge.clock, {clock = stamp})
-    local transforms = poses(stamp)
+    local transforms = poses(stamp, others or {})
     if #transforms > 0 then simROS2.sendTransforms(transforms) end
-    simROS2.publish(bridge.joints, joints(stamp))
+    local message = joints(stamp, others or {})
+    if #message.name > 0 or not others or not next(others) then simROS2.publish(bridge.joints, message) end
 end
 
 return bridge

@@ -5,6 +5,7 @@ use std::net::Ipv4Addr;
 use std::path::{Path, PathBuf};
 
 use super::setup::seconds;
+use format::robot_file::OF_GAZEBO;
 use simulator::RosOptions;
 
 /// Options of ROS
@@ -22,9 +23,12 @@ pub(in crate::cli) struct RosArgs {
     /// Publish the time of the simulation, the poses of all objects and the joints by ROS 2 (/clock, /tf, /joint_states)
     #[arg(long)]
     ros2_bridge: bool,
-    /// Offer ROS 2's standard simulation interfaces (simulation_interfaces 2.1.0: states, steps, entities, worlds), and publish what --ros2-bridge does
+    /// Offer ROS 2's standard simulation interfaces (simulation_interfaces 2.1.0: states, steps, entities, worlds), publish what --ros2-bridge does, and give robots the topics of their sensors and controllers
     #[arg(long)]
     ros2: bool,
+    /// TOML file with sensors and controllers of the robot, for --ros2 [default: NAME.ros2.toml beside the scene]
+    #[arg(long, value_name = "FILE", requires = "ros2")]
+    ros2_robot: Option<PathBuf>,
     /// Topic by which a node of ROS 2 answers each step, or a node with all its topics: a step is over when all have answered, so that a run is the same each time; may be repeated
     #[arg(long, value_name = "TOPIC_OR_NODE", value_parser = topic)]
     ros2_lockstep: Vec<String>,
@@ -59,6 +63,12 @@ pub(in crate::cli) struct RosArgs {
     ros_namespace: String,
 }
 
+/// A text as Lua has it between quotes.
+fn lua_text(text: &str) -> String {
+    let bytes = text.bytes().map(|byte| format!("\\{byte:03}"));
+    format!("\"{}\"", bytes.collect::<String>())
+}
+
 fn topic(name: &str) -> Result<String, String> {
     let is_word = |word: &str| {
         let mut letters = word.chars();
@@ -74,16 +84,6 @@ fn topic(name: &str) -> Result<String, String> {
         .ok_or_else(|| "the name of a topic or a node is needed, such as /cmd_vel".to_owned())
 }
 
-/// The add-on of `--ros2` that offers the standard simulation interfaces.
-const INTERFACES: &[u8] = b"interfaces = require 'remote.ros2'
-function sysCall_init() interfaces.start() end
-sysCall_nonSimulation, sysCall_suspended = interfaces.wait, interfaces.wait
-function sysCall_beforeSimulation() interfaces.beforeStart() end
-function sysCall_beforeMainScript() return {doNotRunMainScript = interfaces.beforeStep()} end
-function sysCall_sensing() interfaces.afterStep() end
-function sysCall_afterSimulation() interfaces.afterEnd() end
-";
-
 /// The add-on of `--ros2-bridge`.
 const BRIDGE: &[u8] = b"bridge = require 'swanilda.ros2_bridge'
 function sysCall_init() bridge.start() end
@@ -95,10 +95,33 @@ impl RosArgs {
     pub(in crate::cli) fn add_ons(
         &self,
     ) -> impl Iterator<Item = (&'static str, Cow<'static, [u8]>)> {
-        let bridge = (self.ros2 || self.ros2_bridge).then_some(("ros2Bridge", BRIDGE.into()));
-        let interfaces = self.ros2.then_some(("ros2Interfaces", INTERFACES.into()));
+        let bridge = (self.ros2_bridge && !self.ros2).then_some(("ros2Bridge", BRIDGE.into()));
+        let interfaces = self.ros2.then(|| self.interfaces());
         let lockstep = (!self.ros2_lockstep.is_empty()).then(|| self.lockstep());
         bridge.into_iter().chain(interfaces).chain(lockstep)
+    }
+
+    /// The add-on of `--ros2` that offers the standard simulation interfaces, and topics of robots.
+    fn interfaces(&self) -> (&'static str, Cow<'static, [u8]>) {
+        let settings = self.ros2_robot.as_deref();
+        let settings = settings.map_or("nil".to_owned(), |path| lua_text(&path.to_string_lossy()));
+        let code = format!(
+            "interfaces = require 'remote.ros2'
+function sysCall_init() interfaces.start({settings}) end
+sysCall_nonSimulation, sysCall_suspended = interfaces.wait, interfaces.wait
+function sysCall_beforeSimulation() interfaces.beforeStart() end
+function sysCall_beforeMainScript() return {{doNotRunMainScript = interfaces.beforeStep()}} end
+function sysCall_actuation() interfaces.actuate() end
+function sysCall_sensing() interfaces.afterStep() end
+function sysCall_afterSimulation() interfaces.afterEnd() end
+"
+        );
+        ("ros2Interfaces", code.into_bytes().into())
+    }
+
+    /// Whether what is said of a file is about something that `--ros2` does.
+    pub(in crate::cli) fn answers(&self, message: &str) -> bool {
+        self.ros2 && message.ends_with(OF_GAZEBO)
     }
 
     fn lockstep(&self) -> (&'static str, Cow<'static, [u8]>) {

@@ -149,13 +149,31 @@ impl Setup {
             add_ons.push(source?.of_faults());
         }
         let scene = scene
-            .map(|path| read_scene(path, bases(self.fix_base), &permissions))
+            .map(|path| self.read_scene(path, &permissions))
             .transpose()?
             .map(|scene| match scene {
                 Scene::Script(source) => Scene::Script(self.up_to_date(source)),
                 file @ Scene::File(_) => file,
             });
         Ok(Sources { scene, add_ons })
+    }
+
+    fn read_scene(&self, path: &Path, permissions: &Permissions) -> Result<Scene, String> {
+        let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
+        match SceneInput::read_with(path, bases(self.fix_base), permissions)? {
+            SceneInput::Script(code) => Ok(Scene::Script(Source {
+                name: name_of(path),
+                code,
+                path: path.to_owned(),
+            })),
+            SceneInput::File(file) => {
+                file.messages()
+                    .iter()
+                    .filter(|message| !self.ros.answers(message))
+                    .for_each(|message| complain(&format!("{}: {message}", path.display())));
+                Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?)))
+            }
+        }
     }
 
     fn up_to_date(&self, source: Source) -> Source {
@@ -328,23 +346,6 @@ pub(in crate::cli) fn bases(are_fixed: bool) -> Bases {
         Bases::Fixed
     } else {
         Bases::AsDescribed
-    }
-}
-
-fn read_scene(path: &Path, bases: Bases, permissions: &Permissions) -> Result<Scene, String> {
-    let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
-    match SceneInput::read_with(path, bases, permissions)? {
-        SceneInput::Script(code) => Ok(Scene::Script(Source {
-            name: name_of(path),
-            code,
-            path: path.to_owned(),
-        })),
-        SceneInput::File(file) => {
-            file.messages()
-                .iter()
-                .for_each(|message| complain(&format!("{}: {message}", path.display())));
-            Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?)))
-        }
     }
 }
 

@@ -13,6 +13,7 @@ mod masks;
 mod mesh_files;
 mod place;
 mod read;
+mod ros;
 mod sensors;
 mod shapes;
 
@@ -28,6 +29,8 @@ pub use export::{RobotExportOptions, export};
 use masks::Masks;
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
+pub use robot_description::urdf::OF_GAZEBO;
+pub use ros::RosRobot;
 use scene::object::dummy::Dummy;
 use scene::shape::Fluid;
 use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};

@@ -72,6 +72,17 @@ impl Endpoint {
         self.node.core(newest).unwrap_or_default()
     }
 
+    /// Whether anything reads what this one writes.
+    pub(super) fn has_reader(&self) -> bool {
+        let has_reader = || self.node.core(|core| core.has_reader(self.entity));
+        let answer = || has_reader().unwrap_or_default();
+        let answer = self
+            .node
+            .tape
+            .input("whether a topic of ROS 2 is read", answer);
+        answer.unwrap_or_default()
+    }
+
     /// Whether one participant elsewhere reads what this one writes, and writes what `reader` reads. Not on the tape.
     pub(super) fn has_partner(&self, reader: &Self) -> bool {
         let (writer, reader) = (self.entity, reader.entity);

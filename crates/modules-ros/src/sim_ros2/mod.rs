@@ -15,6 +15,7 @@ mod node;
 mod parameter_services;
 mod parameters;
 mod qos;
+mod robot;
 mod rosout;
 mod services;
 mod times;
@@ -57,4 +58,10 @@ pub static REMOTE: Module = Module {
 pub static REMOTE_LOCKSTEP: Module = Module {
     inner: &[lockstep::FUNCTIONS],
     ..Module::new("remote.ros2.lockstep")
+};
+
+/// The module `remote.ros2.robots`.
+pub static REMOTE_ROBOTS: Module = Module {
+    inner: &robot::FUNCTIONS,
+    ..Module::new("remote.ros2.robots")
 };

@@ -86,10 +86,17 @@ local function nameFor(request)
     return nil, NAME_NOT_UNIQUE, ("there is an entity '%s' already"):format(name)
 end
 
-local function load(file, temporary)
+--- Gives a robot its topics; the add-on sets it.
+function M.attach() end
+
+-- Loads and places an entity; nil and why there is none.
+local function load(file, name, pose, namespace)
     local ok, base = pcall(sim.loadModel, file)
-    if temporary then os.remove(temporary) end
     if not ok then return nil, results.reason(base) end
+    sim.setObjectAlias(base, name)
+    sim.setObjectPose(base, pose)
+    if namespace then sim.setStringProperty(base, 'customData.ros2Namespace', namespace) end
+    M.attach(base, file, namespace)
     return base
 end
 
@@ -110,11 +117,10 @@ function M.spawn(request)
     if not pose then return failed(INVALID_POSE, wrong) end
     local file, codeOrTemporary, why = located(request.entity_resource)
     if not file then return failed(codeOrTemporary, why) end
-    local base, problem = load(file, codeOrTemporary)
+    local namespace = request.entity_namespace ~= '' and request.entity_namespace or nil
+    local base, problem = load(file, name, pose, namespace)
+    if codeOrTemporary then os.remove(codeOrTemporary) end
     if not base then return failed(PARSE_ERROR, problem) end
-    sim.setObjectAlias(base, name)
-    sim.setObjectPose(base, pose)
-    if request.entity_namespace ~= '' then sim.setStringProperty(base, 'customData.ros2Namespace', request.entity_namespace) end
     spawned[#spawned + 1] = base
     return results.ok {entity_name = entities.name(base)}
 end

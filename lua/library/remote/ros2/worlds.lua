@@ -82,6 +82,9 @@ local function located(resource)
     return nil, UNSUPPORTED_FORMAT, ("'%s' is no file .ttt, .simscene.xml, .lua, .sdf or .world"):format(resource.uri)
 end
 
+--- A world is loaded: the add-on sets what is to be done then.
+function M.hasLoaded() end
+
 function M.load(request)
     local resource = request.world_resource
     local file, codeOrTemporary, why = located(resource)
@@ -90,6 +93,7 @@ function M.load(request)
     if codeOrTemporary then os.remove(codeOrTemporary) end
     if not ok then return results.failed(PARSE_ERROR, results.reason(problem)) end
     isUnloaded = false
+    M.hasLoaded()
     loaded = {name = resource.uri ~= '' and nameOf(file) or 'world', uri = resource.uri}
     return results.ok {world = message(loaded)}
 end
