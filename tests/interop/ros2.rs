@@ -22,6 +22,13 @@ fn simulation_interfaces_with_cyclone_dds() {
     check("ros2_interfaces.py");
 }
 
+/// A robot with wheels, an arm, spawned robots and a scene, by their descriptions.
+#[test]
+#[cfg(target_os = "linux")]
+fn robots_with_cyclone_dds() {
+    check("ros2_robot.py");
+}
+
 /// Ten runs under load, with nodes that answer late and in any order, end in the same state.
 #[test]
 #[cfg(target_os = "linux")]
