@@ -89,6 +89,7 @@ class Rover:
         self.scan = topic(f"{prefix}scan", "sensor_msgs/msg/LaserScan")
         self.scan_points = topic(f"{prefix}scan/points", "sensor_msgs/msg/PointCloud2")
         self.image = topic(f"{prefix}camera/image", "sensor_msgs/msg/Image")
+        self.compressed = topic(f"{prefix}camera/image/compressed", "sensor_msgs/msg/CompressedImage")
         self.info = topic(f"{prefix}camera/camera_info", "sensor_msgs/msg/CameraInfo")
         self.depth = topic(f"{prefix}camera/depth_image", "sensor_msgs/msg/Image")
         self.points = topic(f"{prefix}camera/points", "sensor_msgs/msg/PointCloud2")
@@ -159,6 +160,8 @@ def camera(rover):
     image, info, depth, points = (newest(one, "a picture") for one in (rover.image, rover.info, rover.depth, rover.points))
     assert (image.encoding, image.width, image.height, image.step) == ("rgb8", 160, 120, 480)
     assert {one.header.frame_id for one in (image, info, depth, points)} == {"camera_optical_frame"}
+    compressed = newest(rover.compressed, "a compressed picture")
+    assert bytes(compressed.data[:2]) == b"\xff\xd8" and compressed.header.frame_id == "camera_optical_frame", compressed.format
     focal = 80 / math.tan(0.6)
     near(info.k[0], focal, 1e-9, "the focal length")
     assert (info.k[4], info.k[2], info.k[5], info.p[0]) == (info.k[0], 79.5, 59.5, info.k[0]), info.k

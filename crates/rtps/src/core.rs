@@ -381,19 +381,6 @@ impl Core {
         })
     }
 
-    /// Whether anything reads what a writer writes, here or elsewhere.
-    pub fn has_reader(&self, writer: EntityId) -> bool {
-        let Some(writer) = self.writers.get(&writer) else {
-            return false;
-        };
-        let reads_here = |reader: &Reader| fits(&writer.endpoint, &reader.endpoint);
-        self.readers.values().any(reads_here)
-            || self
-                .peers
-                .keys()
-                .any(|prefix| writer.has_reader_of(*prefix))
-    }
-
     /// Whether a participant has both a reader of `writer` and a writer for `reader`: a server of a service, or a client.
     pub fn has_partner(&self, writer: EntityId, reader: EntityId) -> bool {
         let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader))

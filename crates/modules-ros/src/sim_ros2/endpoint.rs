@@ -74,12 +74,8 @@ impl Endpoint {
 
     /// Whether anything reads what this one writes.
     pub(super) fn has_reader(&self) -> bool {
-        let has_reader = || self.node.core(|core| core.has_reader(self.entity));
-        let answer = || has_reader().unwrap_or_default();
-        let answer = self
-            .node
-            .tape
-            .input("whether a topic of ROS 2 is read", answer);
+        let tape = &self.node.tape;
+        let answer = tape.input("whether a topic of ROS 2 is read", || self.matched() > 0);
         answer.unwrap_or_default()
     }
 

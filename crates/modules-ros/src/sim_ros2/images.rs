@@ -20,7 +20,7 @@ use super::{ApiError, ApiFn, Cx, Result, functions, interfaces};
 use crate::ros_compressed::Compression;
 use crate::ros_images::{COMPRESSED, Content, Frame};
 use scene::Data;
-use script::{Bytes, ScriptCallback, ScriptFunction};
+use script::{Bytes, ScriptCallback, ScriptFunction, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     image_transport_create_publisher,
@@ -29,6 +29,9 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
     image_transport_create_subscription,
     image_transport_shutdown_subscription,
 ];
+
+/// What robots publish images by.
+pub(super) const OF_ROBOTS: &[ApiFn] = functions![publish_image];
 
 const IMAGE: &str = "sensor_msgs/msg/Image";
 const COMPRESSED_IMAGE: &str = "sensor_msgs/msg/CompressedImage";
@@ -147,13 +150,46 @@ fn image_transport_publish(
     height: i64,
     #[name("frame_id")] frame_id: String,
 ) -> Result<()> {
-    let publisher = get(cx, &publisher_handle, publisher)?;
     let stamp = times::to_data(times::ros_time(cx.permissions().tape()));
     let frame = Frame::new(&data.0, width, height)?;
+    publish(cx, &publisher_handle, frame, stamp, &frame_id)
+}
+
+/// Publishes an image as it is, and compressed.
+fn publish(
+    cx: &Cx,
+    publisher_handle: &str,
+    frame: Frame,
+    stamp: Data,
+    frame_id: &str,
+) -> Result<()> {
+    let publisher = get(cx, publisher_handle, publisher)?;
     if let Some(topic) = &publisher.compressed {
-        topic.publish(&node(cx), &frame, &stamp, &frame_id)?;
+        topic.publish(&node(cx), &frame, &stamp, frame_id)?;
     }
-    publisher.publish(&frame.message(stamp, &frame_id))
+    publisher.publish(&frame.message(stamp, frame_id))
+}
+
+/// Publishes an image that was taken at a time.
+///
+/// @param publisherHandle the publisher
+/// @param data width * height * 3 bytes, RGB
+/// @param width pixels
+/// @param frame_id of the header
+/// @param stamp of the header
+#[api("remote.ros2.robots.publishImage")]
+fn publish_image(
+    cx: &mut Cx,
+    publisher_handle: String,
+    data: Bytes,
+    width: i64,
+    #[name("frame_id")] frame_id: String,
+    stamp: Table,
+) -> Result<()> {
+    let row = width.saturating_mul(3).max(1);
+    let height = scene::numbers::count(data.0.len()) / row;
+    let frame = Frame::new(&data.0, width, height)?;
+    publish(cx, &publisher_handle, frame, stamp.0, &frame_id)
 }
 
 /// Ends a publisher of images.

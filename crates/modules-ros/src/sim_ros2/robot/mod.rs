@@ -6,15 +6,15 @@ mod rays;
 
 use api_macro::api;
 
-use super::node::get;
-use super::topics::publisher;
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::node::{Entity, get};
+use super::{ApiError, ApiFn, Cx, Result, functions, images};
 
 /// Internal functions.
-pub(super) const FUNCTIONS: [&[ApiFn]; 4] = [
+pub(super) const FUNCTIONS: [&[ApiFn]; 5] = [
     functions![has_readers],
     description::FUNCTIONS,
     clouds::FUNCTIONS,
+    images::OF_ROBOTS,
     rays::FUNCTIONS,
 ];
 
@@ -24,8 +24,13 @@ pub(super) const FUNCTIONS: [&[ApiFn]; 4] = [
 /// @return hasReaders
 #[api("remote.ros2.robots.hasReaders")]
 fn has_readers(cx: &Cx, publisher_handle: String) -> Result<bool> {
-    let publisher = get(cx, &publisher_handle, publisher)?;
-    Ok(publisher.endpoint.has_reader())
+    let publisher = get(cx, &publisher_handle, |entity| match entity {
+        Entity::Publisher(publisher) => Some(publisher),
+        _ => None,
+    })?;
+    let compressed = publisher.compressed.as_ref();
+    Ok(publisher.endpoint.has_reader()
+        || compressed.is_some_and(|topic| topic.endpoint.has_reader()))
 }
 
 /// The 32-bit floats of bytes.

@@ -56,17 +56,22 @@ local function image(values, header, encoding, size, data)
     return {header = header, height = values.height, width = values.width, encoding = encoding, step = values.width * size, data = data}
 end
 
--- The publishers of a camera, each with what makes its message of a shot.
+-- The publishers of a camera, each with what publishes a shot.
 local function outputs(robot, values, native, focal)
-    local found, isGrey = {}, GREY_FORMATS[values.format]
+    local found = {}
     local function add(topic, kind, make)
-        found[#found + 1] = {publisher = robot.topics.bytesPublisher(topic, 'sensor_msgs/msg/' .. kind), make = make}
+        local publisher = robot.topics.bytesPublisher(topic, 'sensor_msgs/msg/' .. kind)
+        found[#found + 1] = {publisher = publisher, publish = function(shot, header) simROS2.publish(publisher, make(shot, header)) end}
     end
-    if values.color then
-        local size = isGrey and 1 or 3
+    if values.color and GREY_FORMATS[values.format] then
         add(values.topic, 'Image', function(shot, header)
-            return image(values, header, isGrey and 'mono8' or 'rgb8', size, native.flippedRows(isGrey and shot.grey() or shot.colors(), values.width * size))
+            return image(values, header, 'mono8', 1, native.flippedRows(shot.grey(), values.width))
         end)
+    elseif values.color then
+        local publisher = robot.topics.imagePublisher(values.topic)
+        found[1] = {publisher = publisher, publish = function(shot, header)
+            native.publishImage(publisher, shot.colors(), values.width, header.frame_id, header.stamp)
+        end}
     end
     if values.depth then
         add(values.depth_topic, 'Image', function(shot, header)
@@ -116,7 +121,7 @@ function M.new(robot, part, native)
             for _, output in ipairs(all) do
                 if topics.hasReaders(output.publisher) then
                     shot = shot or shotOf(object)
-                    simROS2.publish(output.publisher, output.make(shot, header))
+                    output.publish(shot, header)
                 end
             end
             info.header = header

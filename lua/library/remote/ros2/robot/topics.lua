@@ -62,6 +62,14 @@ function M.new(namespace)
         return publisher
     end
 
+    --- A publisher of images, which are published compressed too.
+    function topics.imagePublisher(name)
+        local full = topics.resolve(name)
+        local publisher = simROS2.imageTransportCreatePublisher(full, M.SENSOR.depth)
+        note(full, function() simROS2.imageTransportShutdownPublisher(publisher) end)
+        return publisher
+    end
+
     function topics.subscription(name, kind, callback)
         local full = topics.resolve(name)
         local subscription = simROS2.createSubscription(full, kind, callback)
