@@ -131,49 +131,58 @@ fn read_control(node: Node, interface: &mut Interface, source: &Source, notes: &
 }
 
 fn read_joint(node: Node, interface: &mut Interface, source: &Source, notes: &mut Notes) {
-    let joint = node.attribute("name").unwrap_or_default().trim().to_owned();
-    let initial = initial_position(node);
-    let mut commands: Vec<Command> = Vec::new();
+    let state = Command {
+        joint: node.attribute("name").unwrap_or_default().trim().to_owned(),
+        interface: String::new(),
+        range: [None; 2],
+        initial: initial_position(node),
+        line: source.line(node),
+    };
+    let before = interface.commands.len();
     for child in elements(node) {
         let line = source.line(child);
         match child.tag_name().name() {
             "command_interface" => {
-                let interface = child.attribute("name").unwrap_or_default().trim();
-                if !matches!(interface, "position" | "velocity" | "effort") {
-                    let message = format!("'{}' is not understood", short(interface));
-                    notes.add(line, "command_interface", message);
-                    continue;
-                }
-                commands.push(Command {
-                    joint: joint.clone(),
-                    interface: interface.to_owned(),
-                    range: ["min", "max"].map(|name| number_param(child, name)),
-                    initial,
-                    line,
-                });
+                let command = read_command(child, &state, source, notes);
+                interface.commands.extend(command);
             }
             "state_interface" => {}
             "param" => {
-                let name = child.attribute("name").unwrap_or_default();
+                let name = short(child.attribute("name").unwrap_or_default());
                 notes.add(
                     line,
                     "param",
-                    format!("'{}' of a joint is not understood", short(name)),
+                    format!("'{name}' of a joint is not understood"),
                 );
             }
             name => notes.add(line, name, "not understood inside of <joint>"),
         }
     }
-    if commands.is_empty() {
-        commands.push(Command {
-            joint,
-            interface: String::new(),
-            range: [None; 2],
-            initial,
-            line: source.line(node),
-        });
+    if interface.commands.len() == before {
+        interface.commands.push(state);
     }
-    interface.commands.extend(commands);
+}
+
+/// What a joint may be told by one interface.
+fn read_command(
+    node: Node,
+    state: &Command,
+    source: &Source,
+    notes: &mut Notes,
+) -> Option<Command> {
+    let interface = node.attribute("name").unwrap_or_default().trim();
+    let line = source.line(node);
+    if !matches!(interface, "position" | "velocity" | "effort") {
+        let message = format!("'{}' is not understood", short(interface));
+        notes.add(line, "command_interface", message);
+        return None;
+    }
+    Some(Command {
+        interface: interface.to_owned(),
+        range: ["min", "max"].map(|name| number_param(node, name)),
+        line,
+        ..state.clone()
+    })
 }
 
 fn number_param(node: Node, name: &str) -> Option<f64> {
