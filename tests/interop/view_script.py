@@ -4,6 +4,7 @@ With `plain` as second argument the page gets what programs serve that were buil
 """
 
 import base64
+import json
 import os
 import pathlib
 import sys
@@ -20,6 +21,7 @@ SCRIPT = "[...swanilda.store.objects.values()].find(object => object.objectType 
 TEXT = "swanilda.script.editing.draft?.text"
 TITLE = "document.querySelector('#script .inspected').textContent"
 COUNT = "swanilda.source.request('run', {code: \"print(sim.getIntProperty(sim.handle_scene, 'signal.count', {noError = true}))\"})"
+PENCIL = "!!document.querySelector('#script [title=\"Change the text\"]:not([hidden])')"
 BUTTON = "[...document.querySelectorAll('#script button')].find(button => button.textContent == '{}')"
 
 
@@ -67,7 +69,7 @@ def answers(browser):
 
 def begins_to_edit(browser):
     browser.evaluate(f"swanilda.openScript({SCRIPT}.handle)")
-    browser.shows("!!document.querySelector('#script .code-line')", "the text")
+    browser.shows(PENCIL, "the text")
     click(browser, "document.querySelector('#script [title=\"Change the text\"]')")
     browser.until(lambda: answers(browser) or browser.evaluate("!!swanilda.script.editing.editor"), "the editor")
     browser.shows("!!swanilda.script.editing.editor", "the editor")
@@ -210,6 +212,22 @@ def two_pages_do_not_lose_their_work(browser, other):
     same("nothing to save", other.evaluate(TITLE)[0] == "●", False)
 
 
+def ends_of_lines_stay(browser):
+    """As in a text from Windows."""
+    make = "h = sim.createScript(sim.scripttype_customization, 'a = 1\\r\\nb = 2\\r\\n') sim.setObjectAlias(h, 'windows')"
+    browser.evaluate(f"swanilda.source.request('run', {{code: {json.dumps(make)}}})")
+    other = "[...swanilda.store.objects.values()].find(object => object.alias == 'windows')"
+    browser.shows(f"!!{other}", "another script")
+    browser.evaluate(f"swanilda.openScript({other}.handle)")
+    browser.shows(f"{TITLE} == '/windows' && {PENCIL}", "its text")
+    click(browser, "document.querySelector('#script [title=\"Change the text\"]')")
+    browser.shows("!!swanilda.script.editing.editor", "the editor")
+    press(browser, "End")
+    write(browser, "0\n")
+    same("the text", browser.evaluate(TEXT), "a = 10\r\n\r\nb = 2\r\n")
+    click(browser, BUTTON.format("Discard"))
+
+
 def keys_leave_the_text(browser):
     """Escape, then Tab."""
     click(browser, "document.querySelector('#script .cm-content')")
@@ -240,6 +258,8 @@ def main():
                 errors_are_marked_at_their_lines(browser)
                 search_finds(browser)
                 keys_leave_the_text(browser)
+                ends_of_lines_stay(browser)
+                begins_to_edit(browser)
             is_saved_while_the_simulation_runs(browser, sim)
             errors_of_the_run_are_marked(browser)
             unsaved_texts_survive(browser)

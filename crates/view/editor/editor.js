@@ -46,7 +46,7 @@ const hovered = hoverTooltip(async (view, pos) => {
   const at = pos - line.from;
   const before = line.text.slice(0, at).match(/[A-Za-z_][\w.:]*$|$/)[0];
   const after = line.text.slice(at).match(/^\w*/)[0];
-  const entry = (await load()).find(before + after, view.state.doc.toString());
+  const entry = (await load().catch(() => null))?.find(before + after, view.state.doc.toString());
   return entry ? { pos: pos - before.length, end: pos + after.length, above: true, create: () => ({ dom: description(entry) }) } : null;
 });
 
@@ -83,17 +83,20 @@ class Errors {
   }
 }
 
-function extensions({ language, label, onChange, onSave }, errors) {
+/** Lines end as they did: as in Windows only if all do. */
+const ends = (text) => (text.includes('\r\n') && !/(^|[^\r])\n/.test(text) ? EditorState.lineSeparator.of('\r\n') : []);
+
+function extensions({ text, language, label, onChange, onSave }, errors) {
   const save = { run: () => (onSave(), true), preventDefault: true };
   const mode = MODES[language];
   return [
     keymap.of([{ key: 'Mod-s', ...save }, { key: 'Mod-Enter', ...save }]),
-    lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
+    ends(text), lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
     indentUnit.of('    '), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(), highlightSelectionMatches(),
     mode ? StreamLanguage.define(mode) : [], syntaxHighlighting(classHighlighter),
     autocompletion({ override: [offers(load, language)] }), hovered, search({ top: true }), showPanel.of(signatures), errors.extension,
     keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap, indentWithTab]),
-    EditorView.updateListener.of((update) => update.docChanged && onChange(update.state.doc.toString())),
+    EditorView.updateListener.of((update) => update.docChanged && onChange(update.state.sliceDoc())),
     EditorView.contentAttributes.of({ 'aria-label': label, spellcheck: 'false', tabindex: '0' }),
   ];
 }

@@ -71,7 +71,8 @@ function words(context, names, language) {
 /** A source of completions. @param {() => Promise<import('./names.js').Names>} load @param {string} language */
 export function offers(load, language) {
   return async (context) => {
-    const names = await load();
+    const names = await load().catch(() => null);
+    if (!names) return null; // the simulator has gone
     return modules(context, names) ?? members(context, names) ?? words(context, names, language);
   };
 }

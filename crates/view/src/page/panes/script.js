@@ -28,6 +28,8 @@ export class ScriptPane {
   /** Shows the script as it is now, or the text of it that is not saved. */
   async _load(line) {
     const { handle } = this;
+    this.script = null; // until it is here, nothing can be changed
+    this._showPermission();
     this._showTitle();
     const script = await this.page.source.request('script', { handle }).catch((error) => ({ text: '', failure: error.message }));
     if (handle !== this.handle || this.editing.draft) return;
