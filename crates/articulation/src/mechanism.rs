@@ -117,6 +117,13 @@ impl Mechanism {
         }
     }
 
+    /// Adds an impulse (N s) and its moment about the centre of mass (N m s), world axes.
+    pub fn add_spatial_impulse(&mut self, body: usize, impulse: &Vector6<f64>) {
+        if let Some(body) = self.bodies.get_mut(body) {
+            body.external_impulse += impulse;
+        }
+    }
+
     /// Finds the impulses that satisfy all joints, motors and limits at once; false when there are none in finite numbers.
     pub fn solve(&mut self) -> bool {
         if self.joints.is_empty() {

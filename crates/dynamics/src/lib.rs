@@ -8,6 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
+//! - `ropes`: ropes and cables, moved by the crate `soft` before the mechanisms are solved.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
@@ -30,6 +31,7 @@ mod motors;
 mod near;
 mod plan;
 mod report;
+mod ropes;
 #[cfg(test)]
 mod tests;
 mod world;
@@ -52,6 +54,7 @@ use mechanisms::workers::Workers;
 use motors::Motion;
 use plan::Plan;
 pub use report::Trigger;
+use ropes::{Response, Ropes};
 use world::World;
 
 use scene::joint::{Joint, JointMode};
@@ -78,12 +81,15 @@ pub struct Dynamics {
     bodies: Bodies,
     links: Links,
     mechanisms: Mechanisms,
+    ropes: Ropes,
     contacts: ContactLog,
     frozen: Frozen,
     /// Roots too far away to be simulated.
     far: Vec<Handle>,
     /// State of the scene for which the plan was made.
     known: Option<Mark>,
+    /// Whether it had changed by more than results when results were told.
+    has_missed_changes: bool,
     call: Option<DynamicsCall>,
     workers: Workers,
     /// The forms of meshes.
@@ -197,9 +203,10 @@ impl Dynamics {
         }
         let sub_steps = settings.sub_steps(time_step);
         self.update_plan(scene);
-        if !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
+        if self.ropes.is_empty() && !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
             return Ok(None);
         }
+        self.ropes.follow(scene);
         let world = self.world.get_or_insert_with(Box::default);
         self.bodies.plan_sweeps(world, scene);
         for link in self.links.values_mut() {
@@ -221,6 +228,7 @@ impl Dynamics {
             && !released
             && !self.bodies.were_touched(scene)
             && !links::were_touched(&self.links, scene)
+            && !self.ropes.were_touched(scene)
             && !self.far.iter().any(|&root| !plan::is_far(scene, root))
         {
             return;
@@ -235,6 +243,8 @@ impl Dynamics {
         links::clear_resets(&self.links, scene);
         contacts::note_colliders(world);
         let_sleep(&self.bodies, &self.links, world);
+        self.ropes
+            .apply_plan(plan.ropes, &self.bodies, world, scene);
         self.contacts.forget_resting();
         self.is_stepped = false;
         self.mechanisms.rebuild(
@@ -249,9 +259,21 @@ impl Dynamics {
 
     /// Whether the scene changed since the last call in a way that may need a new plan.
     fn has_new_changes(&mut self, scene: &Scene) -> bool {
-        scene
+        let changed = scene
             .journal()
-            .changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
+            .changed_since(self.known.get_or_insert(Mark::new(PLANNED)));
+        std::mem::take(&mut self.has_missed_changes) || changed
+    }
+
+    /// Tells the scene where the ropes are, which is no change that needs a new plan.
+    fn report_ropes(&mut self, scene: &mut Scene) {
+        if self.ropes.is_empty() {
+            return;
+        }
+        let changed = self.has_new_changes(scene);
+        self.ropes.report(scene);
+        self.has_new_changes(scene);
+        self.has_missed_changes = changed;
     }
 
     /// Before sub-step number `sub_step` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
@@ -324,17 +346,20 @@ impl Dynamics {
         let mut world = self.world.take()?;
         let call = self.call?;
         // Nobody else can have changed the forces since the first sub-step.
-        if sub_step == 1 || script_access.possible || self.bodies.are_in_fluid {
+        let is_pushed = self.bodies.are_in_fluid || self.ropes.have_pushed;
+        if sub_step == 1 || script_access.possible || is_pushed {
             self.bodies.apply_forces(&mut world, scene, call.step);
         }
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
         let gravity = gravity_of(scene);
+        self.move_ropes(&mut world, gravity, call, sub_step, &verdicts);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
         let is_known = is_integrated
             && !script_access.possible
+            && self.ropes.is_empty()
             && self.mechanisms.know_surroundings(&mut world);
         if !is_known {
             contacts::set_hooks(&mut world, &verdicts, &apart);
@@ -355,6 +380,52 @@ impl Dynamics {
             is_integrated,
             is_known,
         })
+    }
+
+    /// Moves the ropes, and applies to the bodies what they do to them.
+    fn move_ropes(
+        &mut self,
+        world: &mut World,
+        gravity: [f64; 3],
+        call: DynamicsCall,
+        sub_step: u32,
+        verdicts: &Verdicts,
+    ) {
+        self.ropes.have_pushed = false;
+        if self.ropes.is_empty() {
+            return;
+        }
+        let start = ropes::Start {
+            verdicts,
+            gravity,
+            step: call.step,
+            fraction: f64::from(sub_step) / f64::from(call.sub_steps),
+        };
+        let are_bodies_coupled = self.ropes.look_around(&self.bodies, world, start);
+        let mut responses = Vec::new();
+        if are_bodies_coupled {
+            let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
+            self.mechanisms
+                .solve(links, bodies, world, gravity, call.step, verdicts, workers);
+            for shape in self.ropes.coupled_shapes() {
+                responses.extend(self.response_of(shape, world, gravity, call.step));
+            }
+        }
+        self.ropes.solve(responses, world, start);
+    }
+
+    /// Where a body would go without ropes, and what an impulse changes.
+    fn response_of(
+        &mut self,
+        shape: Handle,
+        world: &World,
+        gravity: [f64; 3],
+        step: f64,
+    ) -> Option<Response> {
+        let rigid = world.bodies.get(self.bodies.get(shape)?.rigid)?;
+        let linked = self.mechanisms.response(shape);
+        let of_linked = |(velocity, response)| Response::linked(rigid, velocity, &response);
+        Some(linked.map_or_else(|| Response::free(rigid, gravity, step), of_linked))
     }
 
     /// Solves the mechanisms, and moves their bodies if nothing else moves; whether it did.

@@ -13,6 +13,7 @@ use super::frozen::Frozen;
 use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
+use scene::shape::rope::{Pin, Rope};
 use scene::shape::{Fluid, Primitive, Shape};
 use scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
@@ -27,8 +28,25 @@ pub(super) struct Plan {
     pub bodies: Vec<(Handle, BodyPlan)>,
     /// Handle of the joint, force sensor or (smaller) dummy of the link.
     pub links: BTreeMap<Handle, LinkPlan>,
+    /// Ropes, base-to-tip.
+    pub ropes: Vec<(Handle, RopePlan)>,
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
+}
+
+/// A rope.
+pub(super) struct RopePlan {
+    uid: Uid,
+    pub rope: Rope,
+    pub pins: Vec<Pin>,
+    pub surface: Surface,
+}
+
+impl RopePlan {
+    /// Whether this is the same rope, perhaps held elsewhere.
+    pub(super) fn is_same_rope(&self, other: &Self) -> bool {
+        self.uid == other.uid && self.rope == other.rope
+    }
 }
 
 /// A rigid body.
@@ -144,8 +162,12 @@ impl Plan {
         let bodies = here
             .filter_map(|&handle| Some((handle, body(scene, handle, frozen)?)))
             .collect();
+        let ropes = order
+            .iter()
+            .filter_map(|&handle| Some((handle, rope(scene, handle)?)));
         let mut plan = Self {
             bodies,
+            ropes: ropes.collect(),
             links: BTreeMap::new(),
             far,
         };
@@ -168,6 +190,9 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     let shape = object.shape().ok()?;
     let dynamics = &shape.dynamics;
     if !dynamics.respondable && dynamics.is_static && !carries_links(scene, object) {
+        return None;
+    }
+    if !dynamics.is_static && object.rope().is_some() {
         return None;
     }
     let flags = scene.calculated_model_property(handle);
@@ -193,6 +218,27 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
             ..surface(scene, handle, shape)
         },
         asleep: dynamics.start_asleep,
+    })
+}
+
+/// A shape that bends: one that is not static, and says that it is a rope.
+fn rope(scene: &Scene, handle: Handle) -> Option<RopePlan> {
+    let object = scene.object(handle).ok()?;
+    let shape = object.shape().ok()?;
+    let flags = scene.calculated_model_property(handle);
+    if shape.dynamics.is_static || flags.contains(ModelFlags::NOT_DYNAMIC) {
+        return None;
+    }
+    let rope = object.rope()?;
+    let mut surface = surface(scene, handle, shape);
+    if !shape.dynamics.respondable || flags.contains(ModelFlags::NOT_RESPONDABLE) {
+        (surface.mask, surface.further_bits) = (0, 0);
+    }
+    Some(RopePlan {
+        uid: object.uid(),
+        rope,
+        pins: object.pins(),
+        surface,
     })
 }
 

@@ -72,6 +72,9 @@ impl Dynamics {
         } else {
             Vec::new()
         };
+        if seen {
+            self.report_ropes(scene);
+        }
         self.contacts
             .add_sub_step(&world, self.mechanisms.contacts(), step);
         self.world = Some(world);

@@ -119,6 +119,10 @@ const DYNAMICS: Rooms = &[
     ),
     ("contact_log", &["bodies", "convert", "mechanisms", "world"]),
     (
+        "ropes",
+        &["bodies", "contacts", "convert", "near", "plan", "world"],
+    ),
+    (
         "report",
         &["bodies", "convert", "links", "load", "plan", "world"],
     ),

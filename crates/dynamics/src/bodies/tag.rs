@@ -16,7 +16,7 @@ pub(crate) struct Tag {
 
 impl Tag {
     /// That of a shape with such a surface.
-    pub(super) fn new(shape: Handle, surface: &Surface) -> Self {
+    pub(crate) fn new(shape: Handle, surface: &Surface) -> Self {
         Self {
             shape,
             root: surface.root,

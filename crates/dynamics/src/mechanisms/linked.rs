@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use articulation::{BodyMotion, BodyState, Contact, JointState, Mechanism};
 use geometry::Finite;
+use nalgebra::{Matrix6, Vector6};
 use rapier3d_f64::prelude::{ColliderHandle, RigidBody};
 
 use super::linked_shape::{
@@ -24,6 +25,9 @@ use scene::Handle;
 const CONTACT_ITERATIONS: usize = 10;
 /// The same where bodies touch nothing, and the sub-step is not divided.
 const FREE_ITERATIONS: usize = 50;
+
+/// Speed that a body gets by an impulse with which its mechanism is probed, if nothing holds it: m/s and rad/s.
+const PROBED_SPEED: f64 = 1e-3;
 
 /// A mechanism.
 pub(super) struct Linked {
@@ -246,8 +250,33 @@ impl Linked {
         self.input.pushes.push((body, impulse, point));
     }
 
+    /// Of a body that was solved: the velocity that it gets, and what an impulse changes of that, by a small one in each direction. What was solved has to be
+    /// solved again.
+    pub(super) fn response(&mut self, body: usize) -> Option<(Vector6<f64>, Matrix6<f64>)> {
+        if !self.is_solved || self.shared {
+            return None;
+        }
+        let velocity_of = |linked: &Self| linked.mechanism.velocities().nth(body).copied();
+        let velocity = velocity_of(self)?;
+        let shape = self.bodies.iter().chain(&self.guests).nth(body)?;
+        let (mass, mut response) = (shape.mass(), Matrix6::zeros());
+        for axis in 0..6 {
+            let mut impulse = Vector6::zeros();
+            impulse[axis] = mass[axis] * PROBED_SPEED;
+            self.find_forces(Some((body, impulse)));
+            let changed = velocity_of(self).filter(|_| self.is_solved)? - velocity;
+            response.set_column(axis, &(changed / impulse[axis]));
+        }
+        Some((velocity, response))
+    }
+
     /// Finds the forces for what was read.
     pub(super) fn solve(&mut self) {
+        self.find_forces(None);
+    }
+
+    /// The same with one more impulse on a body.
+    fn find_forces(&mut self, probe: Option<(usize, Vector6<f64>)>) {
         let Input {
             bodies,
             joints,
@@ -263,6 +292,9 @@ impl Linked {
             pushes.iter().for_each(|&(body, impulse, point)| {
                 self.mechanism.add_impulse(body, impulse, point);
             });
+            if let Some((body, impulse)) = probe {
+                self.mechanism.add_spatial_impulse(body, &impulse);
+            }
             self.mechanism.set_contacts(contacts);
             self.is_solved = self.mechanism.solve();
         }

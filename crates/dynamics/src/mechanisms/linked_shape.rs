@@ -57,6 +57,13 @@ impl LinkedShape {
             && self.mass == body.build.mass
     }
 
+    /// Mass (three times) and largest moment of inertia (three times).
+    pub(super) fn mass(&self) -> [f64; 6] {
+        let mass = self.mass.mass;
+        let moment = (self.mass.inertia * mass).diagonal().max();
+        [mass, mass, mass, moment, moment, moment]
+    }
+
     pub(super) fn remove_forces_of_links(&self, world: &mut World) {
         if let Some(rigid) = world
             .bodies

@@ -119,6 +119,11 @@ impl Loose {
         }
     }
 
+    /// The same, to be asked.
+    pub(super) fn groups_mut(&mut self) -> impl Iterator<Item = &mut Linked> {
+        self.groups[..self.count].iter_mut()
+    }
+
     /// The groups that were solved.
     pub(super) fn groups(&self) -> impl Iterator<Item = &Linked> {
         self.groups[..self.count].iter()

@@ -25,6 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use articulation::{BodyProperties, JointProperties, Mechanism};
 use geometry::partition;
+use nalgebra::{Matrix6, Vector6};
 use rapier3d_f64::prelude::{Collider, RigidBody};
 
 use crate::bodies::{Bodies, Tag};
@@ -251,6 +252,22 @@ impl Mechanisms {
             }
         }
         self.joined.len() > known
+    }
+
+    /// Of a body that was solved just now: the velocity that it gets, and what an impulse changes of that. None for what the engine moves.
+    pub(super) fn response(&mut self, shape: Handle) -> Option<(Vector6<f64>, Matrix6<f64>)> {
+        if let Some(&(number, body)) = self.places.get(&shape) {
+            return self.all[number].response(body);
+        }
+        let hosts = self.all.iter_mut().filter(|linked| !linked.shared);
+        for host in hosts.chain(self.loose.groups_mut()) {
+            let place = host.guests().position(|guest| guest == shape);
+            if let Some(guest) = place {
+                let body = host.bodies().len() + guest;
+                return host.response(body);
+            }
+        }
+        None
     }
 
     /// Applies the forces to the bodies, which the engine then moves.

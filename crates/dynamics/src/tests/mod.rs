@@ -11,6 +11,7 @@ mod loops;
 mod masses;
 mod random_trees;
 mod roles;
+mod ropes;
 mod sleep;
 mod surfaces;
 mod tumbling;

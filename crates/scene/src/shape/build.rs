@@ -29,6 +29,7 @@ impl Shape {
             velocity: Velocity::default(),
             force: [0.0; 3],
             torque: [0.0; 3],
+            rope_form: None,
         }
     }
 

@@ -205,6 +205,7 @@ impl Scene {
                 mass,
                 dynamics: shape.dynamics.clone(),
                 material: shape.material.clone(),
+                rope_form: None,
                 ..*shape
             },
         )?;

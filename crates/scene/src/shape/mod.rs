@@ -9,6 +9,7 @@ pub(crate) mod mesh_owners;
 pub mod options;
 pub(crate) mod primitives;
 pub mod reshape;
+pub mod rope;
 
 use std::rc::Rc;
 
@@ -41,6 +42,8 @@ pub struct Shape {
     pub force: [f64; 3],
     /// Torque applied by scripts since the last dynamics call, N m, world axes.
     pub torque: [f64; 3],
+    /// Of a rope that the physics moves.
+    pub rope_form: Option<Rc<rope::RopeForm>>,
 }
 
 /// One mesh of a shape.

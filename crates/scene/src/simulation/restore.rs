@@ -134,6 +134,24 @@ impl Scene {
             // The handles were just read from the tree.
             let _ = self.restore_object(handle, &initial);
         }
+        self.restore_ropes();
+    }
+
+    /// Ropes are where they began.
+    fn restore_ropes(&mut self) {
+        let is_moved = |object: &&Object| {
+            let shape = object.shape();
+            shape.is_ok_and(|shape| shape.rope_form.is_some())
+        };
+        let moved = self.objects().filter(is_moved).map(Object::handle);
+        for handle in moved.collect::<Vec<_>>() {
+            if self.report_rope(handle, None).is_err() {
+                // It is no rope any more, and keeps the form it was given.
+                let _ = self.modify(handle, Field::Geometry, |object| {
+                    object.shape_mut().map(|shape| shape.rope_form = None)
+                });
+            }
+        }
     }
 
     /// Restores the tree. All moved objects are detached first, so that no order of attaching closes a circle.
