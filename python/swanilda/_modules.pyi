@@ -8589,6 +8589,63 @@ class _simSDF:
         fileName: name of the file
         """
 
+class _simSoft:
+    def breakEdge(self, ropeHandle: int, edge: int, /) -> None:
+        """Breaks a rope between two points.
+        ropeHandle: the rope
+        edge: index of the first of the two points, from 0
+        """
+    def createCable(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
+        """A cable or hose: as createRope, but it resists bending as a solid rod does, with a `young` of 2e7 Pa.
+        options: a table, see createRope
+        """
+    def createRope(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
+        """A rope: a shape that the physics bends. It resists bending a thousand times less than a solid rod.
+
+        Options: `points` (three coordinates each, world) or `from` and `to`; `count`: edges of equal length (without it the points are as given; 40 with `from` and `to`);
+        `length` at rest (that of the points); `radius` (0.005); `density` (1000 kg/m3) or `mass` (kg, of all); `young` (1e8 Pa), `poisson` (0.4), or `stretchStiffness` (N),
+        `bendStiffness`, `twistStiffness` (N m2); `damping` (0.001 s), `drag` (0.1 per second), `friction` (0.7, with its like; with others as the selected engine combines), `strength` (N; it does not break), `straight` (true: at rest, otherwise as
+        the points say), `selfContact` (false), `color` (red, green, blue).
+        options: a table
+        """
+    def getBrokenEdges(self, ropeHandle: int, /) -> list[int]:
+        """Where a rope is broken.
+        ropeHandle: the rope
+        """
+    def getPinForce(self, ropeHandle: int, point: int, /) -> list[float]:
+        """The force by which a rope is held at a point, in the last sub-step.
+        ropeHandle: the rope
+        point: its index, from 0
+        """
+    def getPoints(self, ropeHandle: int, /) -> list[float]:
+        """Where the points of a rope are.
+        ropeHandle: the rope
+        """
+    def getTensions(self, ropeHandle: int, /) -> list[float]:
+        """Tensions of the edges between the points, in the last sub-step.
+        ropeHandle: the rope
+        """
+    def pin(self, ropeHandle: int, point: int, objectHandle: int | None = ..., options: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> None:
+        """Holds a point of a rope where it is on an object: it goes along with it, and pulls at it.
+
+        Options: `position` (world): the point is held there instead of where it is; `clamp` (false): the edge that begins at the point (at the last point: ends) keeps its
+        direction in the object and does not turn about its axis.
+        ropeHandle: the rope
+        point: its index, from 0
+        objectHandle: what holds it; -1: the world
+        options: a table
+        """
+    def setPoints(self, ropeHandle: int, points: Sequence[float] | _Array, /) -> None:
+        """Puts the points of a rope elsewhere, at rest. What was stretched by that is pulled together again.
+        ropeHandle: the rope
+        points: three coordinates each, world; as many as there are
+        """
+    def unpin(self, ropeHandle: int, point: int | None = ..., /) -> None:
+        """Lets a point of a rope go.
+        ropeHandle: the rope
+        point: its index, from 0; -1: all that are held
+        """
+
 class _simSubprocess:
     def exec(self, programPath: str, arguments: Sequence[Any] | Mapping[Any, Any], input: bytes | str | None = ..., opts: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> tuple[int, bytes, bytes]:
         """Runs a program and waits until it exits. Ctrl-c ends it with an error.
@@ -10813,6 +10870,8 @@ class Requires:
     def require(self, name: Literal["simRemoteApi"], script: int | None = None) -> _simRemoteApi: ...
     @overload
     def require(self, name: Literal["simSDF"], script: int | None = None) -> _simSDF: ...
+    @overload
+    def require(self, name: Literal["simSoft"], script: int | None = None) -> _simSoft: ...
     @overload
     def require(self, name: Literal["simSubprocess"], script: int | None = None) -> _simSubprocess: ...
     @overload

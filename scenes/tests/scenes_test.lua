@@ -49,6 +49,17 @@ describe('the scene', function()
         assert.equal('0', touches)
     end)
 
+    it('cable lies in its clips, and the connector in its socket', function()
+        runToEnd('cable.lua', 60)
+        local all = t.prints()
+        for i = 1, 2 do
+            local distance, height = all[#all - 3 + i]:match('is (%d+) mm from its middle, (%d+) mm above')
+            assert.is_true(tonumber(distance) < 16 and tonumber(height) < 50)
+        end
+        local off, force = lastLine():match('is ([%d.]+) mm from its place in the socket; the cable pulls with ([%d.]+) N')
+        assert.is_true(tonumber(off) < 3 and tonumber(force) < 20)
+    end)
+
     it('lidar measures a room', function()
         runToEnd('lidar.lua', 1)
         assert.equal('180 of 180 beams ended; the nearest after 0.92 m, at 206 degrees.', lastLine())

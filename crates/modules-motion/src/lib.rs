@@ -1,6 +1,7 @@
-//! Modules for motion: inverse kinematics and motion planning.
+//! Modules for motion: inverse kinematics, motion planning, ropes.
 
 pub mod sim_ik;
 pub mod sim_ompl;
+pub mod sim_soft;
 
 use script::{ApiError, ApiFn, ApiResult as Result, Cx, Module, functions};

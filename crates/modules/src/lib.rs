@@ -45,6 +45,7 @@ pub static ALL: &[&Module] = &[
     #[cfg(feature = "ros2")]
     &modules_ros::sim_ros2::REMOTE_ROBOTS,
     &modules_geometry::sim_sdf::MODULE,
+    &modules_motion::sim_soft::MODULE,
     &modules_messaging::sim_subprocess::MODULE,
     &modules_sensing::sim_surf_rec::MODULE,
     &modules_windows::sim_ui::MODULE,
