@@ -32,12 +32,14 @@ mod banded;
 mod between;
 mod body;
 mod bound;
+mod condensation;
 mod contact;
 mod elastic;
 mod frames;
 mod material;
 mod newton;
 mod rod;
+mod scheme;
 
 pub use between::between;
 pub use body::Body;

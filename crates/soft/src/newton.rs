@@ -1,17 +1,18 @@
-//! One step of rods and the bodies that they are common with.
+//! One step of rods and the bodies that they are coupled with.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{DVector, Vector6};
 
 use crate::V3;
-use crate::assembly::{Border, CommonEquations, Equations, lever_map};
-use crate::banded::Banded;
+use crate::assembly::{CommonEquations, Equations, lever_map};
 use crate::body::{Body, Unknown};
 use crate::bound::{
     Bodies, add_contacts, add_holds, find_hold_forces, force_of, hold_potential, placed, point_on,
 };
+use crate::condensation::{change_of, condense};
 use crate::contact::{Contact, Surface};
 use crate::elastic::{Elastic, elastic_potential, strains};
 use crate::rod::{Motion, Node, Rod, Target};
+use crate::scheme::Scheme;
 
 /// Gap at which a contact counts as near, in radii.
 const NEAR: f64 = 0.5;
@@ -35,84 +36,6 @@ pub struct Step {
     pub gravity: V3,
     /// Seconds.
     pub length: f64,
-}
-
-/// How a rod is integrated over a step: its places are `places` + `factor` times their velocities at the end of the step.
-struct Scheme {
-    factor: f64,
-    places: Vec<Node>,
-    velocities: Vec<Node>,
-}
-
-impl Scheme {
-    fn new(rod: &Rod, step: f64) -> Self {
-        let is_calm = rod.calm_steps > 0 && (!rod.looked_back || rod.last_step == step);
-        let both = |weights: [f64; 2], now: &[Node], before: &[Node]| {
-            let pairs = now.iter().zip(before);
-            pairs
-                .map(|(now, before)| now * weights[0] - before * weights[1])
-                .collect()
-        };
-        let (now, before) = (&rod.now, &rod.before);
-        match (rod.looked_back, is_calm) {
-            (true, true) => Self {
-                factor: step * 2.0 / 3.0,
-                places: both([4.0 / 3.0, 1.0 / 3.0], &now.places, &before.places),
-                velocities: both([4.0 / 3.0, 1.0 / 3.0], &now.velocities, &before.velocities),
-            },
-            // It begins as if the velocity had been the same before: what is kept of momentum from now on is what there is.
-            (false, true) => Self {
-                factor: step * 2.0 / 3.0,
-                places: both([1.0, -step / 3.0], &now.places, &now.velocities),
-                velocities: now.velocities.clone(),
-            },
-            // It ends with the velocity that goes with the momentum that was kept.
-            (true, false) => Self {
-                factor: step,
-                places: now.places.clone(),
-                velocities: both([1.5, 0.5], &now.velocities, &before.velocities),
-            },
-            (false, false) => Self {
-                factor: step,
-                places: now.places.clone(),
-                velocities: now.velocities.clone(),
-            },
-        }
-    }
-
-    fn looks_back(&self, step: f64) -> bool {
-        self.factor < step
-    }
-
-    /// The potential of inertia, weight and drag, for displacements from where the nodes were.
-    fn potential(&self, rod: &Rod, trial: &[Node], gravity: &V3) -> f64 {
-        let inverse = 1.0 / self.factor;
-        let weight = gravity.push(0.0);
-        let of_node = |node: usize| {
-            let moved = trial[node] - self.places[node];
-            let square = moved * (0.5 * inverse * (inverse + rod.material.drag));
-            let linear = square - self.velocities[node] * inverse - weight;
-            rod.masses[node].component_mul(&moved).dot(&linear)
-        };
-        (0..rod.len()).map(of_node).sum()
-    }
-
-    /// Adds inertia, weight and drag.
-    fn add_inertia(&self, rod: &Rod, trial: &[Node], gravity: &V3, equations: &mut Equations) {
-        let inverse = 1.0 / self.factor;
-        let weight = gravity.push(0.0);
-        for (node, mass) in rod.masses.iter().enumerate() {
-            let velocity = (trial[node] - self.places[node]) * inverse;
-            let rate = (velocity - self.velocities[node]) * inverse + velocity * rod.material.drag
-                - weight;
-            let stiffness = inverse * (inverse + rod.material.drag);
-            for axis in 0..4 {
-                let row = 4 * node + axis;
-                equations.gradient[row] += mass[axis] * rate[axis];
-                equations.matrix.add(row, row, mass[axis] * stiffness);
-            }
-        }
-    }
 }
 
 /// Moves rods, and finds the impulses on bodies and at contacts; false where there is no solution in finite numbers: then the rods stay where they are, at rest.
@@ -485,76 +408,6 @@ fn count_calm_steps(
             }
         }
     }
-}
-
-/// Takes a rod out of the common equations; its border by the inverse of its matrix.
-fn condense(
-    equations: &mut Equations,
-    matrix: &mut DMatrix<f64>,
-    right: &mut DVector<f64>,
-) -> Vec<Border> {
-    let Equations {
-        matrix: factors,
-        gradient,
-        border,
-    } = equations;
-    factors.solve(gradient);
-    let solved: Vec<Border> = border
-        .iter()
-        .map(|border| Border {
-            columns: border.columns.clone(),
-            rows: solve_columns(factors, border),
-        })
-        .collect();
-    for first in border.iter() {
-        for (row, known) in first.rows.iter().zip(gradient.iter()) {
-            for (place, value) in first.columns.clone().zip(row) {
-                right[place] += value * known;
-            }
-        }
-        for second in &solved {
-            subtract_product(first, second, matrix);
-        }
-    }
-    solved
-}
-
-fn subtract_product(first: &Border, second: &Border, matrix: &mut DMatrix<f64>) {
-    let mut product = Matrix6::zeros();
-    let is_used = |(row, _): &(&[f64; 6], &[f64; 6])| row.iter().any(|value| *value != 0.0);
-    for (row, other) in first.rows.iter().zip(&second.rows).filter(is_used) {
-        product += Vector6::from(*row) * Vector6::from(*other).transpose();
-    }
-    for (i, row) in first.columns.clone().enumerate() {
-        for (j, column) in second.columns.clone().enumerate() {
-            matrix[(row, column)] -= product[(i, j)];
-        }
-    }
-}
-
-fn solve_columns(factors: &Banded, border: &Border) -> Vec<[f64; 6]> {
-    let mut solved = border.rows.clone();
-    for axis in 0..border.columns.len() {
-        let mut column: Vec<f64> = border.rows.iter().map(|row| row[axis]).collect();
-        factors.solve(&mut column);
-        for (row, value) in solved.iter_mut().zip(column) {
-            row[axis] = value;
-        }
-    }
-    solved
-}
-
-/// The change of a rod's unknowns, once the common ones are known.
-fn change_of(equations: &Equations, borders: &[Border], common: &DVector<f64>) -> Vec<f64> {
-    let mut change: Vec<f64> = equations.gradient.iter().map(|x| -x).collect();
-    for border in borders {
-        for (entry, row) in change.iter_mut().zip(&border.rows) {
-            for (place, value) in border.columns.clone().zip(row) {
-                *entry -= value * common[place];
-            }
-        }
-    }
-    change
 }
 
 /// The rod at the end of the step.
