@@ -19,11 +19,11 @@ REPLAY_LIMIT = 60  # seconds for a replay: it has no pauses, but much may have h
 class Simulator:
     """With statement; at its end the run is replayed, which has to be the same without the program that was tried with it."""
 
-    def __init__(self, *args, command="serve"):
+    def __init__(self, *args, command="serve", replayed=True):
         self.folder = tempfile.TemporaryDirectory()
         self.capture = os.path.join(self.folder.name, "run.swc")
         is_played = any(str(arg).endswith(".swc") for arg in args)
-        captures = command in ("run", "serve", "view") and "--capture" not in args and not is_played
+        captures = replayed and command in ("run", "serve", "view") and "--capture" not in args and not is_played
         captured = ["--capture", self.capture] if captures else []
         line = [sys.argv[1], command, "--json", *captured, *args]
         self.process = subprocess.Popen(line, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=ROOT)

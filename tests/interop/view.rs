@@ -29,6 +29,11 @@ fn a_capture_in_a_browser() {
 }
 
 #[test]
+fn a_robot_is_built_in_a_browser() {
+    check_in_browser("view_studio.py");
+}
+
+#[test]
 fn windows_of_scripts_in_a_browser() {
     check_in_browser_with("view_windows.py", &[&old_scene("view_windows.ttt")]);
 }

@@ -28,6 +28,7 @@ pub use capture::Tape;
 use format::scene_file::SceneFile;
 use format::script_file;
 use heap::Contained;
+use permissions::Permissions;
 use script::coverage::LineCounts;
 use script::{ApiError, Detached, SceneSource, Script, SysCall, TestBench};
 
@@ -343,6 +344,11 @@ impl Simulator {
     /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.parts.sim.clock.state()
+    }
+
+    /// What scripts may do.
+    pub fn permissions(&self) -> &Permissions {
+        &self.parts.sim.options.permissions
     }
 
     /// The tape on which everything comes from outside: off, unless the permissions of the options have another.

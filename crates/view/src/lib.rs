@@ -6,9 +6,11 @@
 //! Pages are readers on the thread of a server; a recorder is one on the simulation's own.
 //!
 //! Requests of pages are checked on the server's thread ([`request`]) and carried out by the simulation's between two iterations ([`Viewer`]).
+//! Those that change the scene are in [`edit`], with undo and redo.
 
 pub(crate) mod blobs;
 mod busy;
+mod edit;
 mod hash;
 mod images;
 pub mod mcap;
@@ -26,5 +28,5 @@ pub use busy::BusySign;
 pub use server::page_file;
 pub use viewer::CaptureViewer;
 pub use viewer::RecordedViewer;
+pub use viewer::ReplayedRequests;
 pub use viewer::Viewer;
-pub use viewer::replay_requests;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::END;
 use super::interrupt::Interrupt;
 use simulator::{RunLimits, RunTotals, SimulationState, Simulator};
-use view::{Viewer, replay_requests};
+use view::{ReplayedRequests, Viewer};
 
 /// Longest wait for a request before an idle loop iteration.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
@@ -18,11 +18,15 @@ const SHORT_POLL_INTERVAL: Duration = Duration::from_millis(1);
 /// A simulator's loop, with a viewer or without.
 pub(in crate::cli) struct Live {
     viewer: Option<Viewer>,
+    replayed: ReplayedRequests,
 }
 
 impl Live {
     pub(in crate::cli) fn new(viewer: Option<Viewer>) -> Self {
-        Self { viewer }
+        Self {
+            viewer,
+            replayed: ReplayedRequests::default(),
+        }
     }
 
     /// Iterates until ctrl-c, SIGTERM or `quitSimulator()`, then ends the simulation and closes the scene. The exit code says which.
@@ -64,7 +68,7 @@ impl Live {
 
     fn rest(&mut self, sim: &mut Simulator, timeout: Duration) {
         if sim.tape().is_replaying() {
-            return replay_requests(sim);
+            return self.replayed.perform(sim);
         }
         let has_rested = !timeout.is_zero() && sim.wait_for_request(timeout);
         let rest = if has_rested { Duration::ZERO } else { timeout };

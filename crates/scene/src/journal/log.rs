@@ -142,15 +142,21 @@ impl Log {
         })
     }
 
-    /// Drops readers that are gone, changes that all have read, and the older half of a full log.
-    fn trim(&mut self) {
-        let readers = self.readers.get_mut();
+    /// Drops readers that are gone.
+    pub(super) fn drop_readers(&self) {
+        let mut readers = self.readers.borrow_mut();
         readers.retain(|reader| reader.next.strong_count() > 0);
         self.wanted.set(
             readers
                 .iter()
                 .fold(Topics::NONE, |wanted, reader| wanted.and(reader.topics)),
         );
+    }
+
+    /// Drops readers that are gone, changes that all have read, and the older half of a full log.
+    fn trim(&mut self) {
+        self.drop_readers();
+        let readers = self.readers.get_mut();
         let end = self.first + self.stored.len() as u64;
         let places = readers
             .iter()

@@ -122,6 +122,11 @@ impl Journal {
         self.log.follow(topics)
     }
 
+    /// Forgets readers whose cursors are gone, before a snapshot of the memory that the journal lies in.
+    pub fn drop_readers(&self) {
+        self.log.drop_readers();
+    }
+
     /// Changes since the last call with this cursor, oldest first.
     pub fn read(&self, cursor: &mut Cursor) -> Unread<'_> {
         self.log.read(cursor)

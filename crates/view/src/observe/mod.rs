@@ -209,6 +209,14 @@ impl Observer {
         }
     }
 
+    /// Keeps nothing that lies in the memory of the simulator: it may be taken back. The next time it looks at everything.
+    pub(crate) fn let_go(&mut self, scene: &Scene) {
+        let (scene_uid, errors) = (self.scene_uid, std::mem::take(&mut self.script_errors));
+        self.forget();
+        (self.scene_uid, self.script_errors) = (scene_uid, errors);
+        scene.journal().drop_readers();
+    }
+
     /// The journal need not keep anything for this reader until it looks again; then it looks at everything.
     pub(crate) fn pause(&mut self) {
         self.cursor = None;

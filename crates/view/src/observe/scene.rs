@@ -22,6 +22,8 @@ pub(crate) struct Source<'a> {
     pub mode: &'static str,
     /// Of a capture that is played.
     pub played: Option<Played>,
+    /// What can be undone: members of the scene; null where nothing can.
+    pub edits: Value,
 }
 
 /// The moment of a capture that is shown.
@@ -45,6 +47,7 @@ impl<'a> Source<'a> {
             is_read_only: false,
             mode: "live",
             played: None,
+            edits: Value::Null,
         }
     }
 
@@ -86,6 +89,11 @@ impl<'a> Source<'a> {
         });
         if let Some(hash) = self.now.state_hash {
             scene["hash"] = format!("{hash:016x}").into();
+        }
+        if let Value::Object(edits) = &self.edits {
+            for (name, value) in edits {
+                scene[name] = value.clone();
+            }
         }
         if let Some(played) = &self.played {
             played.describe(&mut scene);

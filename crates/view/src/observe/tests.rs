@@ -51,6 +51,7 @@ impl Stage {
             is_read_only: false,
             mode: "live",
             played: None,
+            edits: Value::Null,
         };
         self.observer.observe(&source, lines)
     }

@@ -60,6 +60,14 @@ const ICONS = {
   proximitySensor: 'M2 8l9-4.5v9zM13 5.5c1 1.5 1 3.5 0 5',
   visionSensor: 'M1.5 8C4 4 12 4 14.5 8 12 12 4 12 1.5 8zM8 6.5a1.5 1.5 0 1 0 0 3 1.5 1.5 0 0 0 0-3',
   points: 'M4 4v.01M8 3v.01M12 5v.01M5 8v.01M10 8v.01M4 12v.01M8 12v.01M12 11v.01',
+  select: 'M4 2l8 6-3.5.8L10.5 13l-1.8.8-2-4.2L4 12z',
+  move: 'M8 1.5v13M1.5 8h13M6 3.5l2-2 2 2M6 12.5l2 2 2-2M3.5 6l-2 2 2 2M12.5 6l2 2-2 2',
+  turn: 'M13 8a5 5 0 1 1-1.8-3.8M13 2.5v3h-3',
+  snap: 'M3 2v6a5 5 0 0 0 10 0V2h-3v6a2 2 0 0 1-4 0V2zM3 4.5h3M10 4.5h3',
+  add: 'M8 3v10M3 8h10',
+  undo: 'M3 6.5h6.5a3.5 3.5 0 0 1 0 7H6M6 3.5l-3 3 3 3',
+  open: 'M1.5 13V3.5h4l1.5 2h6V7M1.5 13l2.5-6h11l-2.5 6z',
+  save: 'M2.5 2.5h8.5l2.5 2.5v8.5h-11zM5 2.5v4h5v-4M5 13.5V9.5h6v4',
   windows: 'M2 3h9v7H2zM5 10v3h9V6h-3M2 5h9',
 };
 const FILLED = new Set(['play', 'pause', 'stop', 'step', 'jump']);

@@ -24,6 +24,7 @@ import { Renderer } from './render/renderer.js';
 import { ReplaySource } from './replay.js';
 import { Samples } from './samples.js';
 import { poseIn, Store } from './store.js';
+import { Studio, studioKeys } from './studio/studio.js';
 
 const at = (id) => document.getElementById(id);
 
@@ -49,7 +50,8 @@ class Page {
     this.dialogs = new DialogsPane(this);
     this.questions = new Questions(this);
     this.banners = new BannersPane(this);
-    const keys = keysOf(this);
+    this.studio = new Studio(this);
+    const keys = [...keysOf(this), ...studioKeys(this)];
     this.help = new Help(keys);
     this._listen(keys);
     this.layout.addButtons(at('bar'));
@@ -68,7 +70,7 @@ class Page {
   _listen(keys) {
     const actions = new Map(keys.flatMap((key) => key.keys.map((name) => [name, key.action])));
     addEventListener('keydown', (event) => this._key(event, actions));
-    const pointed = { select: (hit, more) => this._clicked(hit, more), focus: (hit) => this._focused(hit), hover: (hit, x, y) => this.overlay.hover(hit, x, y), moved: () => (this.followed = null) };
+    const pointed = { select: (hit, more) => this._clicked(hit, more), focus: (hit) => this._focused(hit), hover: (hit, x, y) => this.overlay.hover(hit, x, y), moved: () => (this.followed = null), pull: this.studio.pull };
     if (this.renderer) this.controls = new Controls(this.renderer, pointed);
     if (this.renderer) this.sights = new Sights(this, pointed);
     this.store.on('scene', () => (document.title = this.store.scene.name ? `${this.store.scene.name} – Swanilda` : 'Swanilda'));
@@ -76,10 +78,11 @@ class Page {
   }
 
   _key(event, actions) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.('input, select, textarea, dialog')) return;
+    if (event.altKey || event.target.closest?.('input, select, textarea, dialog')) return;
     if ((event.key === ' ' || event.key === 'Enter') && event.target.closest?.('button, summary')) return;
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    const action = actions.get(event.shiftKey ? `shift+${name}` : name) ?? actions.get(name);
+    const withCtrl = event.ctrlKey || event.metaKey ? 'ctrl+' : '';
+    const action = actions.get(`${withCtrl}${event.shiftKey ? 'shift+' : ''}${name}`) ?? (withCtrl ? undefined : actions.get(name));
     if (!action || (event.key.startsWith('Arrow') && !event.target.matches?.('#scene, .second'))) return;
     event.preventDefault();
     action(event);
@@ -224,7 +227,7 @@ class Page {
   }
 
   escape() {
-    if (this.layout.closeOverlays() || this.sights?.measure.end()) return;
+    if (this.studio.close() || this.layout.closeOverlays() || this.sights?.measure.end()) return;
     this.select(-1, false);
   }
 
@@ -258,6 +261,7 @@ class Page {
       this.sights.advance(seconds);
       if (this.renderer.frame(seconds)) this.views.draw(true), this.sights.measure.place();
       this.overlay.frame();
+      this.studio.frame();
     }
     requestAnimationFrame((next) => this.frame(next));
   }

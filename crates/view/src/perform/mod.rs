@@ -6,8 +6,9 @@ mod inspector;
 mod scripts;
 mod values;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use super::edit::Editor;
 use super::observe::handle_of;
 use super::request::Action;
 use scene::{Data, Handle};
@@ -15,6 +16,7 @@ use script::log::RecentLine;
 use simulator::{Simulator, property_setter};
 
 pub(crate) use inspector::rows;
+pub(crate) use values::to_json as json_of;
 
 /// Carries out a request; lines of the log that it took to answer are added to `lines`.
 ///
@@ -24,8 +26,16 @@ pub(crate) fn perform(
     sim: &mut Simulator,
     action: &Action,
     lines: &mut Vec<RecentLine>,
+    editor: &mut Editor,
 ) -> Result<Value, String> {
     match action {
+        Action::Edit { .. }
+        | Action::Undo
+        | Action::Redo
+        | Action::Pull { .. }
+        | Action::Load { .. }
+        | Action::Save { .. }
+        | Action::Changes => return change(sim, action, editor),
         Action::Play => sim.play(),
         Action::Pause => sim.pause(),
         Action::Stop => sim.stop_in_place_of_pause(),
@@ -56,13 +66,23 @@ pub(crate) fn perform(
             handle,
             name,
             value,
-        } => set(sim, *handle, name, value)?,
+        } => {
+            return editor.record(sim, action, |_, sim| {
+                set(sim, *handle, name, value)?;
+                Ok((set_label(sim, *handle, name), true.into()))
+            });
+        }
         Action::Script(handle) => return scripts::read(sim, *handle),
         Action::SaveScript {
             handle,
             text,
             version,
-        } => return scripts::save(sim, *handle, text, version),
+        } => {
+            return editor.record(sim, action, |_, sim| {
+                let saved = scripts::save(sim, *handle, text, version)?;
+                Ok((set_label(sim, *handle, "the text"), saved))
+            });
+        }
         Action::Configure(handle) => {
             return sim
                 .configure(*handle)
@@ -76,9 +96,63 @@ pub(crate) fn perform(
             input,
         } => use_window(sim, window, widget, input)?,
         Action::Answer { .. } => return Err("no dialog waits for an answer".into()),
-        Action::Run(code) => return run(sim, code, lines).map(Value::String),
+        Action::Run(code) => {
+            return editor.record(sim, action, |_, sim| {
+                let text = run(sim, code, lines)?;
+                Ok((format!("Run {}", shortened(code)), text.into()))
+            });
+        }
+        Action::Upload { .. } => return Err("files are sent before they are loaded".into()),
     }
     Ok(Value::Bool(true))
+}
+
+/// What changes the scene, loads or saves it.
+fn change(sim: &mut Simulator, action: &Action, editor: &mut Editor) -> Result<Value, String> {
+    match action {
+        Action::Edit {
+            edit, arguments, ..
+        } => editor.edit(sim, action, edit, arguments),
+        Action::Undo => editor.undo(sim),
+        Action::Redo => editor.redo(sim),
+        Action::Pull {
+            handle,
+            point,
+            target: Some(target),
+        } => editor.pull(
+            sim,
+            &json!({ "handle": handle, "point": point, "target": target }),
+        ),
+        Action::Load {
+            main,
+            files,
+            position,
+        } => editor.load(sim, action, (main, files), position),
+        Action::Save {
+            path,
+            model,
+            may_overwrite,
+        } => editor.save(sim, path, *model, *may_overwrite),
+        Action::Changes => editor.changes(sim),
+        _ => Ok(Value::Bool(true)),
+    }
+}
+
+/// What was set, for undo.
+fn set_label(sim: &Simulator, handle: i64, name: &str) -> String {
+    let scene = sim.scene();
+    let object = Handle::from_raw(handle).and_then(|handle| scene.object(handle).ok());
+    let what = object.map_or("the scene", |object| object.alias());
+    format!("Set {name} of {what}")
+}
+
+/// The first line of code, if it is short.
+fn shortened(code: &str) -> String {
+    let line = code.lines().next().unwrap_or_default();
+    match line.char_indices().nth(30) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
+    }
 }
 
 /// What a person does with a window of a script, or with a user interface of V-REP.
@@ -147,7 +221,7 @@ mod tests {
     }
 
     fn done(sim: &mut Simulator, action: &Action) -> Result<Value, String> {
-        perform(sim, action, &mut Vec::new())
+        perform(sim, action, &mut Vec::new(), &mut Editor::default())
     }
 
     #[test]

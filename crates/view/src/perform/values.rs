@@ -8,7 +8,7 @@ use scene::{Data, Key, ValueType};
 const MAX_SIZE: usize = 2000;
 
 /// A value as JSON: strings that are no UTF-8, and what is long, as `{"bytes": length}`.
-pub(super) fn to_json(value: &Data) -> Value {
+pub(crate) fn to_json(value: &Data) -> Value {
     if value.size() > MAX_SIZE {
         return json!({ "bytes": value.size() });
     }

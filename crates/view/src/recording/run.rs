@@ -1,5 +1,6 @@
 //! Records a simulator while it runs.
 
+use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -115,6 +116,7 @@ fn source<'a>(present: &Present<'a>) -> Source<'a> {
         is_read_only: true,
         mode: RECORDING,
         played: None,
+        edits: Value::Null,
     }
 }
 

@@ -3,9 +3,15 @@
 #[cfg(test)]
 mod tests;
 
-use crate::sample::Following;
+use std::sync::Arc;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
 use capture::{Input, Recorded};
 use serde_json::{Map, Value, json};
+
+use crate::edit::Files;
+use crate::sample::Following;
 
 /// Code and texts of a page, bytes.
 const MAX_TEXT_LENGTH: usize = 100_000;
@@ -62,6 +68,40 @@ pub(crate) enum Action {
         input: Value,
     },
     Run(String),
+    /// A change of the scene by its name; those with the same number of a gesture are one step of undo.
+    Edit {
+        edit: String,
+        arguments: Value,
+        gesture: Option<u64>,
+    },
+    Undo,
+    Redo,
+    /// Pulls a point of an object (in its frame) towards a place of the world during the next step; without a target it ends.
+    Pull {
+        handle: i64,
+        point: [f64; 3],
+        target: Option<[f64; 3]>,
+    },
+    /// A piece of a file that is to be loaded.
+    Upload {
+        name: String,
+        data: Vec<u8>,
+    },
+    /// Loads one of the files that were sent.
+    Load {
+        main: String,
+        files: Arc<Files>,
+        /// Where it is put, or null.
+        position: Value,
+    },
+    Save {
+        path: String,
+        /// The base of a model, instead of the scene.
+        model: Option<i64>,
+        may_overwrite: bool,
+    },
+    /// What is different from the scene that was loaded.
+    Changes,
     /// To the dialog with that number; null: cancelled.
     Answer {
         question: u64,
@@ -136,6 +176,40 @@ impl Action {
                 input,
             } => json!({ "do": "ui", "window": window, "widget": widget, "input": input }),
             Self::Run(code) => json!({ "do": "run", "code": code }),
+            Self::Edit {
+                edit,
+                arguments,
+                gesture,
+            } => {
+                json!({ "do": "edit", "edit": edit, "arguments": arguments, "gesture": gesture })
+            }
+            Self::Undo => json!({ "do": "undo" }),
+            Self::Redo => json!({ "do": "redo" }),
+            Self::Pull {
+                handle,
+                point,
+                target,
+            } => json!({ "do": "pull", "handle": handle, "point": point, "target": target }),
+            Self::Upload { name, data } => {
+                json!({ "do": "upload", "name": name, "data": BASE64.encode(data) })
+            }
+            Self::Load {
+                main,
+                files,
+                position,
+            } => {
+                let encoded = files
+                    .iter()
+                    .map(|(name, data)| (name.clone(), BASE64.encode(data).into()));
+                let files: Members = encoded.collect();
+                json!({ "do": "load", "main": main, "files": files, "position": position })
+            }
+            Self::Save {
+                path,
+                model,
+                may_overwrite,
+            } => json!({ "do": "save", "path": path, "model": model, "overwrite": may_overwrite }),
+            Self::Changes => json!({ "do": "changes" }),
             Self::Answer { question, answer } => {
                 json!({ "do": "answer", "question": question, "answer": answer })
             }
@@ -153,7 +227,22 @@ impl Action {
                 | Self::Show { .. }
                 | Self::Sample(_)
                 | Self::Graph(_)
+                | Self::Changes
         )
+    }
+
+    /// Whether pages can take it back.
+    pub(crate) fn is_undoable(&self) -> bool {
+        self.is_edit()
+            || matches!(
+                self,
+                Self::Set { .. } | Self::SaveScript { .. } | Self::Run(_)
+            )
+    }
+
+    /// Whether it is done whole or not at all.
+    pub(crate) fn is_edit(&self) -> bool {
+        matches!(self, Self::Edit { .. } | Self::Load { .. })
     }
 
     /// Whether it goes to another moment of a capture, which changes nothing.
@@ -234,6 +323,33 @@ fn action(members: &Members) -> Result<Action, String> {
             }
         }
         "run" => Action::Run(text(members, "code")?),
+        "edit" => Action::Edit {
+            edit: text(members, "edit")?,
+            arguments: members.get("arguments").cloned().unwrap_or(Value::Null),
+            gesture: members.get("gesture").and_then(Value::as_u64),
+        },
+        "undo" => Action::Undo,
+        "redo" => Action::Redo,
+        "pull" => Action::Pull {
+            handle: handle(members)?,
+            point: point(members, "point")?.ok_or("`point` is missing")?,
+            target: point(members, "target")?,
+        },
+        "upload" => Action::Upload {
+            name: text(members, "name")?,
+            data: bytes(members.get("data"))?,
+        },
+        "load" => Action::Load {
+            main: text(members, "main")?,
+            files: files(members)?,
+            position: members.get("position").cloned().unwrap_or(Value::Null),
+        },
+        "save" => Action::Save {
+            path: text(members, "path")?,
+            model: members.get("model").and_then(Value::as_i64),
+            may_overwrite: members.get("overwrite").and_then(Value::as_bool) == Some(true),
+        },
+        "changes" => Action::Changes,
         "answer" => {
             let question = members
                 .get("question")
@@ -317,4 +433,38 @@ fn flag(members: &Members, name: &str) -> Result<bool, String> {
         .get(name)
         .and_then(Value::as_bool)
         .ok_or_else(|| format!("`{name}` is true or false"))
+}
+
+/// Three numbers; None where there are none, or null.
+fn point(members: &Members, name: &str) -> Result<Option<[f64; 3]>, String> {
+    let wrong = || format!("`{name}` is a list of 3 numbers");
+    let Some(list) = members.get(name).filter(|list| !list.is_null()) else {
+        return Ok(None);
+    };
+    let numbers: Option<Vec<f64>> = list
+        .as_array()
+        .ok_or_else(wrong)?
+        .iter()
+        .map(Value::as_f64)
+        .collect();
+    let point = numbers.and_then(|numbers| numbers.try_into().ok());
+    point.map(Some).ok_or_else(wrong)
+}
+
+/// Bytes in base64.
+fn bytes(value: Option<&Value>) -> Result<Vec<u8>, String> {
+    let text = value.and_then(Value::as_str);
+    let bytes = text.and_then(|text| BASE64.decode(text).ok());
+    bytes.ok_or_else(|| "`data` is a text in base64".to_owned())
+}
+
+/// The files of a captured request; a page sends them before.
+fn files(members: &Members) -> Result<Arc<Files>, String> {
+    let Some(files) = members.get("files").and_then(Value::as_object) else {
+        return Ok(Arc::default());
+    };
+    let decoded = files
+        .iter()
+        .map(|(name, data)| Ok((name.clone(), bytes(Some(data))?)));
+    decoded.collect::<Result<Files, String>>().map(Arc::new)
 }

@@ -64,6 +64,14 @@ fn what_is_none_is_refused_with_a_reason() {
         r#"{"id":1,"do":"saveScript","handle":7,"text":"x = 1"}"#,
         r#"{"id":1,"do":"saveScript","handle":7,"text":5,"version":"a"}"#,
         r#"{"id":1,"do":"check"}"#,
+        r#"{"id":1,"do":"edit"}"#,
+        r#"{"id":1,"do":"pull","handle":1}"#,
+        r#"{"id":1,"do":"pull","handle":1,"point":[1,2]}"#,
+        r#"{"id":1,"do":"pull","handle":1,"point":[1,2,"3"],"target":null}"#,
+        r#"{"id":1,"do":"upload","name":"a"}"#,
+        r#"{"id":1,"do":"upload","name":"a","data":"*"}"#,
+        r#"{"id":1,"do":"load"}"#,
+        r#"{"id":1,"do":"save"}"#,
     ] {
         assert!(
             parse(text).is_err_and(|reason| !reason.is_empty()),
@@ -100,6 +108,16 @@ fn requests_come_back_from_a_capture() {
         r#"{"id":1,"do":"ui","window":1,"widget":2,"input":{"type":"click"}}"#,
         r#"{"id":1,"do":"run","code":"x = 1"}"#,
         r#"{"id":1,"do":"answer","question":1,"answer":null}"#,
+        r#"{"id":1,"do":"edit","edit":"move","arguments":{"handles":[3],"poses":[[0,0,1,0,0,0,1]]},"gesture":5}"#,
+        r#"{"id":1,"do":"edit","edit":"drop","arguments":{"handles":[3]}}"#,
+        r#"{"id":1,"do":"undo"}"#,
+        r#"{"id":1,"do":"redo"}"#,
+        r#"{"id":1,"do":"pull","handle":3,"point":[0,0,0.5],"target":[1,2,3]}"#,
+        r#"{"id":1,"do":"pull","handle":3,"point":[0,0,0.5],"target":null}"#,
+        r#"{"id":1,"do":"load","main":"a.urdf","files":{"a.urdf":"PHJvYm90Lz4=","b/c.stl":""},"position":[1,2,0]}"#,
+        r#"{"id":1,"do":"save","path":"a.ttt","model":null,"overwrite":true}"#,
+        r#"{"id":1,"do":"save","path":"a.ttm","model":7,"overwrite":false}"#,
+        r#"{"id":1,"do":"changes"}"#,
     ] {
         let (action, mut bytes) = (parse(text).unwrap(), Vec::new());
         action.write(&mut bytes);

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 use serde_json::{Value, json};
 
 use super::{PageId, Pending, Shared, lock, reply};
+use crate::edit::Uploads;
 use crate::mirror::{Message, Revision};
 use crate::request::{Action, Request};
 use crate::sample::Following;
@@ -27,6 +28,8 @@ pub(super) struct Page {
     replies: Arc<Mutex<VecDeque<String>>>,
     /// The last change of what the simulation is busy with.
     busy: u64,
+    /// Files that it is about to load.
+    uploads: Uploads,
 }
 
 impl Page {
@@ -42,15 +45,21 @@ impl Page {
             following: (Following::default(), 0),
             replies: Arc::default(),
             busy: 0,
+            uploads: Uploads::default(),
         }
     }
 
     /// Carries out what concerns only this page; otherwise returns what is for the simulation.
-    fn perform(&mut self, request: Request) -> Result<Option<Request>, String> {
+    fn perform(&mut self, mut request: Request) -> Result<Option<Request>, String> {
         if !self.shared.permits(&request.action) {
             return Err("this page may only read".to_owned());
         }
-        match &request.action {
+        match &mut request.action {
+            Action::Upload { name, data } => self.uploads.add(name, data)?,
+            Action::Load { files, .. } => {
+                *files = self.uploads.take();
+                return Ok(Some(request));
+            }
             Action::Watch(handles) => {
                 self.watched = handles
                     .iter()

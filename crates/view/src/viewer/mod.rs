@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::busy::BusySign;
+use crate::edit::{Editor, Pulls};
 use crate::images::Images;
 use crate::mirror::Demanded;
 use crate::observe::{Observation, ObservedWindows, Observer, Source, WindowObserver};
@@ -20,6 +21,7 @@ use crate::request::Action;
 use crate::sample::Followed;
 use crate::server::{RecordedSite, Shared, ViewSite};
 use ::io::SiteServer;
+use serde_json::Value;
 use simulator::Simulator;
 
 use script::log::RecentLine;
@@ -37,15 +39,21 @@ pub use capture::CaptureViewer;
 /// What a request of a page is called in a capture.
 const REQUEST: &str = "a request of a page";
 
-/// Performs what pages asked for at this place of a captured run, without pages.
-pub fn replay_requests(sim: &mut Simulator) {
-    let tape = sim.tape().clone();
-    while tape.next_is(REQUEST) {
-        let Ok(action) = tape.input(REQUEST, || Action::Pause) else {
-            return;
-        };
-        // Only pages look at the answer.
-        let _ = perform(sim, &action, &mut Vec::new());
+/// What pages asked for in a captured run, without pages.
+#[derive(Default)]
+pub struct ReplayedRequests(Editor);
+
+impl ReplayedRequests {
+    /// Performs what they asked for at this place of the run.
+    pub fn perform(&mut self, sim: &mut Simulator) {
+        let tape = sim.tape().clone();
+        while tape.next_is(REQUEST) {
+            let Ok(action) = tape.input(REQUEST, || Action::Pause) else {
+                return;
+            };
+            // Only pages look at the answer.
+            let _ = perform(sim, &action, &mut Vec::new(), &mut self.0);
+        }
     }
 }
 
@@ -67,6 +75,8 @@ pub struct Viewer {
     samples: Timer,
     images_shown: Images,
     sampled: Sampled,
+    editor: Editor,
+    pulls: Pulls,
 }
 
 /// Of what numbers for pages were read last.
@@ -124,6 +134,8 @@ impl Viewer {
             samples: Timer::default(),
             images_shown: Images::default(),
             sampled: Sampled::default(),
+            editor: Editor::default(),
+            pulls: Pulls::default(),
         })
     }
 
@@ -162,13 +174,16 @@ impl Viewer {
     /// Answers requests, waiting up to `timeout` for the first, and shows what changed if it is time for that.
     pub fn attend(&mut self, sim: &mut Simulator, timeout: Duration) {
         self.shared.attend();
+        for pull in self.pulls.due(sim.steps()) {
+            // A page that has to know asks itself.
+            let _ = self.perform(sim, &pull);
+        }
         let mut timeout = timeout;
         let mut answered = false;
         while let Some(pending) = self.shared.next_request(timeout) {
             timeout = Duration::ZERO;
             answered = true;
-            sim.tape().add(REQUEST, &pending.action);
-            let result = perform(sim, &pending.action, &mut self.lines);
+            let result = self.perform(sim, &pending.action);
             self.is_held &= result.is_err() || !lets_go_on(&pending.action);
             pending.answer(result);
             // Code may run for a long time: its effects are shown before the next request.
@@ -213,6 +228,26 @@ impl Viewer {
         }
     }
 
+    fn perform(&mut self, sim: &mut Simulator, action: &Action) -> Result<Value, String> {
+        if let Some(answer) = self.pulls.repeated(action, sim.steps()) {
+            return Ok(answer);
+        }
+        if self.editor.takes_snapshot(sim, action) {
+            self.let_go(sim);
+        }
+        sim.tape().add(REQUEST, action);
+        let answer = perform(sim, action, &mut self.lines, &mut self.editor);
+        self.pulls.note(action, sim.steps(), &answer);
+        answer
+    }
+
+    /// Keeps nothing that lies in the memory of the simulator, which may be taken back.
+    fn let_go(&mut self, sim: &Simulator) {
+        self.lines.extend(sim.take_recent_lines());
+        self.observer.let_go(&sim.scene());
+        self.windows = WindowObserver::default();
+    }
+
     /// Shows what changed since the last time; nothing while there are no pages.
     fn show(&mut self, sim: &Simulator) {
         self.lines.extend(sim.take_recent_lines());
@@ -227,6 +262,7 @@ impl Viewer {
             let scene = sim.scene();
             let mut source = Source {
                 is_read_only: self.is_read_only,
+                edits: self.editor.describe(sim),
                 ..Source::of(sim, &scene)
             };
             if self.is_held && source.now.state != SimulationState::Stopped {

@@ -192,7 +192,10 @@ export class InspectorPane {
       if (editor?.reset) editor.reset();
       editor?.show(row.value);
     };
-    this.page.ask('set', { handle: this.handle, name: row.name, value }).then(null, back);
+    const { handle, page } = this;
+    const edit = { edit: 'resize', arguments: { handle, size: value } };
+    const done = row.name === 'size' ? page.ask('edit', edit) : page.ask('set', { handle, name: row.name, value });
+    done.then(null, back);
   }
 
   _values() {

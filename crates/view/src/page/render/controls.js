@@ -6,7 +6,7 @@ const HOVER = 400; // milliseconds
 export class Controls {
   /**
    * @param {import('./renderer.js').Renderer} renderer
-   * @param {{select: function(any, boolean): void, focus: function(any): void, hover: function(any, number, number): void, moved: function(): void}} actions
+   * @param {{select: function(any, boolean): void, focus: function(any): void, hover: function(any, number, number): void, moved: function(): void, pull: any}} actions
    */
   constructor(renderer, actions) {
     Object.assign(this, { renderer, actions });
@@ -16,7 +16,7 @@ export class Controls {
     listen('pointerdown', (event) => this._down(event));
     listen('pointermove', (event) => this._move(event));
     listen('pointerup', (event) => this._up(event));
-    listen('pointercancel', (event) => this.pointers.delete(event.pointerId));
+    listen('pointercancel', (event) => (this.actions.pull?.end(), this.pointers.delete(event.pointerId)));
     listen('pointerleave', () => this._noHover());
     listen('dblclick', (event) => actions.focus(renderer.pick(event.offsetX, event.offsetY)));
     listen('contextmenu', (event) => event.preventDefault());
@@ -28,6 +28,7 @@ export class Controls {
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
     this._noHover();
+    if (this.actions.pull?.takes(event)) return;
     this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
     this.travelled = this.pointers.size > 1 ? CLICK : 0;
     const pivot = this.renderer.pointAt(event.offsetX, event.offsetY);
@@ -37,6 +38,7 @@ export class Controls {
   }
 
   _move(event) {
+    if (this.actions.pull?.held) return this.actions.pull.move(event);
     const before = this.pointers.get(event.pointerId);
     if (!before) return this._hoverLater(event);
     const [dx, dy] = [event.offsetX - before[0], event.offsetY - before[1]];
@@ -63,6 +65,7 @@ export class Controls {
   }
 
   _up(event) {
+    this.actions.pull?.end();
     if (!this.pointers.delete(event.pointerId)) return;
     if (this.travelled >= CLICK || event.button !== 0) return;
     this.actions.select(this.renderer.pick(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey || event.shiftKey);

@@ -14,6 +14,7 @@ use serde_json::Value;
 use super::frames::Frames;
 use super::{FRAME, Timer, Viewer};
 use crate::busy::BusySign;
+use crate::edit::Editor;
 use crate::observe::{Observer, WindowObserver};
 use crate::perform::perform;
 use crate::request::Action;
@@ -208,7 +209,12 @@ impl<L: Loop> CaptureViewer<L> {
             Action::Live => {}
             Action::Inspect(_) | Action::Script(_) | Action::Graph(_) => {
                 self.come_back()?;
-                return Ok(perform(self.playback().sim(), action, &mut Vec::new()));
+                return Ok(perform(
+                    self.playback().sim(),
+                    action,
+                    &mut Vec::new(),
+                    &mut Editor::default(),
+                ));
             }
             _ => return Ok(Err("this is a capture: go on from here first".to_owned())),
         }

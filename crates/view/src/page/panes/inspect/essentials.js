@@ -38,7 +38,7 @@ export function madeRows(rows, object) {
   const row = (name, type, value, unit = '', writable = false) => ({ name, type, value, unit, writable, group: 'shape', label: name });
   const made = [];
   const half = rows.get('bbHSize')?.value;
-  if (half) made.push(row('size', 'vector3', half.map((x) => 2 * x), 'm'));
+  if (half) made.push(row('size', 'vector3', half.map((x) => 2 * x), 'm', true));
   const color = object?.meshes?.[0]?.color?.diffuse;
   if (color && rows.has('mass')) made.push(row('applyColor.diffuse', 'color', color, '', true));
   const point = rows.get('detectedPoint')?.value;

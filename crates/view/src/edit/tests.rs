@@ -1,0 +1,545 @@
+//! Changes of pages in a simulator, with undo and redo.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use super::Editor;
+use crate::perform::perform;
+use crate::request::Action;
+use simulator::{Options, Simulator};
+
+// Snapshots need the memory of a simulator in one place.
+#[global_allocator]
+static ALLOCATOR: heap::Allocator = heap::Allocator;
+
+struct Desk {
+    sim: Simulator,
+    editor: Editor,
+}
+
+impl Desk {
+    fn new() -> Self {
+        Self {
+            sim: Simulator::new(Options::default()),
+            editor: Editor::default(),
+        }
+    }
+
+    fn ask(&mut self, action: &Action) -> Result<Value, String> {
+        perform(&mut self.sim, action, &mut Vec::new(), &mut self.editor)
+    }
+
+    fn edit(&mut self, edit: &str, arguments: Value) -> Result<Value, String> {
+        self.ask(&Action::Edit {
+            edit: edit.into(),
+            arguments,
+            gesture: None,
+        })
+    }
+
+    /// The handle of a new object.
+    fn add(&mut self, kind: &str, more: &Value) -> i64 {
+        let mut arguments = more.clone();
+        arguments["kind"] = kind.into();
+        let done = self.edit("add", arguments).unwrap();
+        done["selection"][0].as_i64().unwrap()
+    }
+
+    /// What a line of Lua prints.
+    fn lua(&mut self, code: &str) -> String {
+        self.sim.keep_recent_lines();
+        let mut lines = Vec::new();
+        let action = Action::Run(code.into());
+        let text = perform(&mut self.sim, &action, &mut lines, &mut self.editor).unwrap();
+        text.as_str().unwrap().to_owned()
+    }
+
+    fn aliases(&self) -> Vec<String> {
+        let scene = self.sim.scene();
+        scene
+            .objects()
+            .map(|object| object.alias().to_owned())
+            .collect()
+    }
+
+    fn position(&self, handle: i64) -> [f64; 3] {
+        let scene = self.sim.scene();
+        let pose = scene
+            .world_pose(scene::Handle::from_raw(handle).unwrap())
+            .unwrap();
+        pose.translation.vector.into()
+    }
+}
+
+#[test]
+fn every_kind_of_object_is_added_and_undone() {
+    let kinds = "cuboid sphere cylinder cone capsule plane revoluteJoint prismaticJoint sphericalJoint dummy forceSensor raySensor \
+                 coneSensor visionSensor camera omniLight spotLight directionalLight simulationScript customizationScript";
+    let mut desk = Desk::new();
+    for (number, kind) in kinds.split_whitespace().enumerate() {
+        desk.add(kind, &json!({ "position": [1, 2, 0] }));
+        assert_eq!(desk.aliases().len(), number + 1, "{kind}");
+    }
+    let all = desk.aliases();
+    for number in (0..all.len()).rev() {
+        desk.ask(&Action::Undo).unwrap();
+        assert_eq!(desk.aliases(), all[..number]);
+    }
+    assert_eq!(
+        desk.ask(&Action::Undo),
+        Err("there is nothing to undo".into())
+    );
+    for number in 1..=all.len() {
+        desk.ask(&Action::Redo).unwrap();
+        assert_eq!(desk.aliases(), all[..number]);
+    }
+    assert_eq!(
+        desk.ask(&Action::Redo),
+        Err("there is nothing to redo".into())
+    );
+}
+
+#[test]
+fn shapes_stand_where_they_are_put_and_children_are_at_their_parents() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({ "position": [1, 2, 0.5] }));
+    assert_eq!(desk.position(cuboid), [1.0, 2.0, 0.55]);
+    let joint = desk.add(
+        "revoluteJoint",
+        &json!({ "parent": cuboid, "position": [9, 9, 9] }),
+    );
+    assert_eq!(desk.position(joint), [1.0, 2.0, 0.55]);
+    assert_eq!(
+        desk.lua(&format!("sim.getObjectParent({joint}) == {cuboid}")),
+        "true"
+    );
+    let body =
+        format!("sim.getBoolProperty({cuboid}, 'dynamic'), sim.getFloatProperty({cuboid}, 'mass')");
+    assert_eq!(desk.lua(&body), "true, 1.");
+}
+
+#[test]
+fn moves_of_one_gesture_are_one_step_of_undo() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({}));
+    let mut drag = |gesture, x: f64| {
+        desk.ask(&Action::Edit {
+            edit: "move".into(),
+            arguments: json!({ "handles": [cuboid], "poses": [[x, 0, 1, 0, 0, 0, 1]] }),
+            gesture: Some(gesture),
+        })
+        .unwrap()
+    };
+    drag(1, 1.0);
+    drag(1, 2.0);
+    assert_eq!(drag(2, 3.0)["label"], "Move Cuboid");
+    assert_eq!(desk.position(cuboid), [3.0, 0.0, 1.0]);
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(desk.position(cuboid), [2.0, 0.0, 1.0]);
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(desk.position(cuboid), [0.0, 0.0, 0.05]);
+    desk.ask(&Action::Redo).unwrap();
+    assert_eq!(desk.position(cuboid), [2.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_drag_goes_along_the_axes_of_its_frame() {
+    let mut desk = Desk::new();
+    let base = desk.add("cuboid", &json!({}));
+    let arm = desk.add("cylinder", &json!({ "parent": base }));
+    let drag = |desk: &mut Desk, gesture: u64, more: Value| {
+        let mut arguments = more;
+        arguments["gesture"] = gesture.into();
+        desk.ask(&Action::Edit {
+            edit: "drag".into(),
+            arguments,
+            gesture: Some(gesture),
+        })
+        .unwrap()
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    drag(
+        &mut desk,
+        1,
+        json!({ "handles": [base, arm], "active": base, "frame": "world", "turn": [0, 0, 1, quarter] }),
+    );
+    drag(
+        &mut desk,
+        2,
+        json!({ "handles": [arm], "active": arm, "frame": "own", "by": [0.1, 0, 0] }),
+    );
+    drag(
+        &mut desk,
+        2,
+        json!({ "handles": [arm], "active": arm, "frame": "own", "by": [0.3, 0, 0] }),
+    );
+    let near =
+        |at: [f64; 3], wanted: [f64; 3]| at.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(
+        near(desk.position(arm), [0.0, 0.3, 0.05]),
+        "{:?}",
+        desk.position(arm)
+    );
+    drag(
+        &mut desk,
+        3,
+        json!({ "handles": [arm], "active": arm, "frame": "parent", "by": [0, 0.2, 0] }),
+    );
+    assert!(
+        near(desk.position(arm), [-0.2, 0.3, 0.05]),
+        "{:?}",
+        desk.position(arm)
+    );
+    drag(
+        &mut desk,
+        4,
+        json!({ "handles": [base, arm], "active": base, "frame": "world", "turn": [0, 0, 1, quarter] }),
+    );
+    assert!(
+        near(desk.position(arm), [-0.3, -0.2, 0.05]),
+        "{:?}",
+        desk.position(arm)
+    );
+}
+
+#[test]
+fn properties_and_code_are_undone_as_well() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({}));
+    desk.ask(&Action::Set {
+        handle: cuboid,
+        name: "mass".into(),
+        value: json!(5.0),
+    })
+    .unwrap();
+    assert_eq!(
+        desk.editor.describe(&desk.sim)["undo"],
+        "Set mass of Cuboid"
+    );
+    desk.lua(&format!("x = 7 sim.setObjectAlias({cuboid}, 'box')"));
+    assert_eq!(desk.aliases(), ["box"]);
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(
+        (desk.aliases(), desk.lua("x == nil")),
+        (vec!["Cuboid".into()], "true".into())
+    );
+    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(
+        desk.lua(&format!("sim.getFloatProperty({cuboid}, 'mass')")),
+        "1."
+    );
+}
+
+#[test]
+fn the_tree_is_changed() {
+    let mut desk = Desk::new();
+    let (base, arm) = (
+        desk.add("cuboid", &json!({})),
+        desk.add("cylinder", &json!({ "position": [1, 0, 0] })),
+    );
+    desk.edit("parent", json!({ "handles": [arm], "parent": base }))
+        .unwrap();
+    assert_eq!(
+        (
+            desk.lua(&format!("sim.getObjectParent({arm}) == {base}")),
+            desk.position(arm)
+        ),
+        ("true".into(), [1.0, 0.0, 0.05])
+    );
+    assert!(
+        desk.edit("parent", json!({ "handles": [base], "parent": arm }))
+            .is_err(),
+        "a circle"
+    );
+    desk.edit("rename", json!({ "handle": base, "alias": "base" }))
+        .unwrap();
+    let copy = desk
+        .edit("duplicate", json!({ "handles": [base, arm] }))
+        .unwrap();
+    assert_eq!(
+        copy["selection"].as_array().unwrap().len(),
+        1,
+        "the arm is below the base"
+    );
+    assert_eq!(desk.aliases().len(), 4);
+    assert!(
+        desk.position(copy["selection"][0].as_i64().unwrap())[0] > 0.1,
+        "it is seen"
+    );
+    desk.edit("remove", json!({ "handles": [base] })).unwrap();
+    assert_eq!(desk.aliases().len(), 2);
+}
+
+#[test]
+fn shapes_are_grouped_and_taken_apart() {
+    let mut desk = Desk::new();
+    let shapes = [
+        desk.add("cuboid", &json!({})),
+        desk.add("sphere", &json!({ "position": [1, 0, 0] })),
+    ];
+    let group = desk.edit("group", json!({ "handles": shapes })).unwrap()["selection"][0].clone();
+    assert_eq!(desk.aliases().len(), 1);
+    let parts = desk.edit("ungroup", json!({ "handle": group })).unwrap();
+    assert_eq!(parts["selection"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn what_is_dropped_rests_on_what_is_below() {
+    let mut desk = Desk::new();
+    desk.add("cuboid", &json!({ "position": [0, 0, 0] }));
+    let ball = desk.add("sphere", &json!({ "position": [0, 0, 2] }));
+    let aside = desk.add("cylinder", &json!({ "position": [3, 0, 2] }));
+    desk.edit("drop", json!({ "handles": [ball, aside] }))
+        .unwrap();
+    let height = |handle| desk.position(handle)[2];
+    assert!((height(ball) - 0.15).abs() < 1e-4, "{}", height(ball));
+    assert!((height(aside) - 0.05).abs() < 1e-4, "{}", height(aside));
+    let camera = desk.add("camera", &json!({}));
+    let refused = desk
+        .edit("drop", json!({ "handles": [camera] }))
+        .unwrap_err();
+    assert_eq!(refused, "Camera has no shape that could rest on something");
+}
+
+#[test]
+fn shapes_get_the_size_that_is_written() {
+    let mut desk = Desk::new();
+    let wheel = desk.add("cylinder", &json!({}));
+    desk.edit(
+        "resize",
+        json!({ "handle": wheel, "size": [0.2, 0.2, 0.05] }),
+    )
+    .unwrap();
+    assert_eq!(
+        desk.lua(&format!("(sim.getShapeBB({wheel}))")),
+        "{0.2, 0.2, 0.05}"
+    );
+    let plane = desk.add("plane", &json!({}));
+    desk.edit("resize", json!({ "handle": plane, "size": [5, 5, 0] }))
+        .unwrap();
+    assert_eq!(desk.lua(&format!("sim.getShapeBB({plane})[1]")), "5.");
+    assert!(
+        desk.edit("resize", json!({ "handle": wheel, "size": [0, 0.1, 0.1] }))
+            .is_err()
+    );
+}
+
+#[test]
+fn sensors_see_what_is_before_them() {
+    for kind in ["raySensor", "coneSensor"] {
+        let mut desk = Desk::new();
+        let sensor = desk.add(kind, &json!({}));
+        desk.add("cuboid", &json!({ "position": [0, 0, 0.3] }));
+        let distance = desk.lua(&format!(
+            "({sensor} and select(2, sim.checkProximitySensor({sensor}, sim.handle_all)))"
+        ));
+        assert_eq!(distance, "0.3", "{kind}");
+    }
+}
+
+#[test]
+fn what_fails_leaves_nothing_behind() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({}));
+    let moved =
+        json!({ "handles": [cuboid, 99], "poses": [[1, 0, 0, 0, 0, 0, 1], [1, 0, 0, 0, 0, 0, 1]] });
+    assert!(desk.edit("move", moved).is_err());
+    assert_eq!(desk.position(cuboid), [0.0, 0.0, 0.05]);
+    for (edit, arguments) in [
+        ("explode", json!({})),
+        ("x(os.exit())", json!({})),
+        ("add", json!({ "kind": "elephant" })),
+        ("rename", json!({})),
+        ("remove", json!({ "handles": "all" })),
+        ("remove", Value::Null),
+        ("parent", json!({ "handles": [cuboid], "parent": 77 })),
+    ] {
+        let outcome = desk.edit(edit, arguments);
+        assert!(
+            outcome.as_ref().is_err_and(|reason| !reason.is_empty()),
+            "{edit}: {outcome:?}"
+        );
+    }
+    assert_eq!(desk.aliases(), ["Cuboid"]);
+    assert_eq!(desk.editor.describe(&desk.sim)["undo"], "Add Cuboid");
+}
+
+#[test]
+fn changes_while_the_simulation_runs_are_not_undone() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({}));
+    desk.sim.step(1);
+    desk.edit(
+        "move",
+        json!({ "handles": [cuboid], "poses": [[1, 0, 3, 0, 0, 0, 1]] }),
+    )
+    .unwrap();
+    assert_eq!(desk.position(cuboid)[0], 1.0);
+    assert!(
+        desk.ask(&Action::Undo)
+            .unwrap_err()
+            .contains("stop the simulation first")
+    );
+    desk.sim.stop();
+    assert_eq!(
+        (
+            desk.position(cuboid)[0],
+            desk.editor.describe(&desk.sim)["undo"].as_str()
+        ),
+        (0.0, Some("Add Cuboid"))
+    );
+}
+
+#[test]
+fn a_pull_moves_a_body_to_its_target() {
+    let mut desk = Desk::new();
+    let ball = desk.add("sphere", &json!({ "position": [0, 0, 1] }));
+    let pull = |desk: &mut Desk, handle| {
+        desk.ask(&Action::Pull {
+            handle,
+            point: [0.0; 3],
+            target: Some([0.5, 0.0, 1.2]),
+        })
+    };
+    assert!(pull(&mut desk, ball).unwrap_err().contains("start it"));
+    let mut force = Value::Null;
+    for _ in 0..100 {
+        desk.sim.step(1);
+        force = pull(&mut desk, ball).unwrap();
+    }
+    let mass = 1000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
+    let lift = force["force"][2].as_f64().unwrap();
+    assert!(
+        (lift - mass * 9.81).abs() < 0.01,
+        "it carries the weight: {lift}"
+    );
+    let at = desk.position(ball);
+    // The spring of 8 rad/s hangs through by g / 64.
+    assert!(
+        (at[0] - 0.5).abs() < 1e-3 && (at[2] - (1.2 - 9.81 / 64.0)).abs() < 2e-3,
+        "{at:?}"
+    );
+    let camera = desk.add("camera", &json!({}));
+    assert!(pull(&mut desk, camera).unwrap_err().contains("static"));
+}
+
+#[test]
+fn files_of_pages_come_into_the_scene() {
+    let urdf = r#"<robot name="cart"><link name="base"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+        <collision><geometry><mesh filename="meshes/box.stl"/></geometry></collision></link></robot>"#;
+    let triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    let stl = format!("solid a\n{triangle}endsolid a\n");
+    let files = BTreeMap::from([
+        ("cart.urdf".to_owned(), urdf.as_bytes().to_vec()),
+        ("meshes/box.stl".to_owned(), stl.into_bytes()),
+        ("bad.ttt".to_owned(), b"VREP?".to_vec()),
+        (
+            "made.lua".to_owned(),
+            b"sim = require 'sim'\nfunction sysCall_init() sim.createDummy(0.1) end".to_vec(),
+        ),
+    ]);
+    let files = Arc::new(files);
+    let mut desk = Desk::new();
+    let load = |desk: &mut Desk, main: &str| {
+        desk.ask(&Action::Load {
+            main: main.into(),
+            files: Arc::clone(&files),
+            position: json!([2, 3, 0]),
+        })
+    };
+    let done = load(&mut desk, "cart.urdf").unwrap();
+    let robot = done["selection"][0].as_i64().unwrap();
+    assert_eq!(desk.position(robot)[..2], [2.0, 3.0]);
+    let many = desk.aliases().len();
+    load(&mut desk, "meshes/box.stl").unwrap();
+    assert_eq!(desk.aliases().len(), many + 1);
+    assert!(load(&mut desk, "bad.ttt").is_err() && load(&mut desk, "none.stl").is_err());
+    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(desk.aliases().len(), 0);
+    load(&mut desk, "made.lua").unwrap();
+    desk.sim.iterate();
+    assert!(
+        desk.aliases().contains(&"dummy".to_owned()),
+        "{:?}",
+        desk.aliases()
+    );
+}
+
+#[test]
+fn nothing_is_overwritten_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut desk = Desk::new();
+    desk.add("cuboid", &json!({}));
+    let ball = desk.add("sphere", &json!({}));
+    let save = |desk: &mut Desk, name: &str, model, may_overwrite| {
+        let path = folder.path().join(name).to_string_lossy().into_owned();
+        let action = Action::Save {
+            path,
+            model,
+            may_overwrite,
+        };
+        desk.ask(&action)
+    };
+    assert!(
+        desk.ask(&Action::Changes).unwrap()["text"]
+            .as_str()
+            .unwrap()
+            .contains("Cuboid")
+    );
+    for name in ["a.ttt", "a.simscene.xml", "a.glb", "folder"] {
+        assert_eq!(
+            save(&mut desk, name, None, false).unwrap()["exists"],
+            false,
+            "{name}"
+        );
+        assert!(folder.path().join(name).exists(), "{name}");
+        let before = std::fs::metadata(folder.path().join(name))
+            .unwrap()
+            .modified()
+            .unwrap();
+        assert_eq!(
+            save(&mut desk, name, None, false).unwrap()["exists"],
+            true,
+            "{name}"
+        );
+        assert_eq!(
+            std::fs::metadata(folder.path().join(name))
+                .unwrap()
+                .modified()
+                .unwrap(),
+            before
+        );
+    }
+    assert_eq!(
+        save(&mut desk, "a.ttt", None, true).unwrap()["exists"],
+        false
+    );
+    let refused = save(&mut desk, "ball.ttm", Some(ball), false).unwrap_err();
+    assert!(refused.contains("not tagged as model base"), "{refused}");
+    desk.edit("model", json!({ "handle": ball, "on": true }))
+        .unwrap();
+    assert_eq!(
+        save(&mut desk, "ball.ttm", Some(ball), false).unwrap()["exists"],
+        false
+    );
+    desk.ask(&Action::Undo).unwrap();
+    assert_eq!(desk.ask(&Action::Changes).unwrap()["text"], "");
+    assert_eq!(
+        save(&mut desk, "a.ttt", None, true).unwrap()["exists"],
+        false
+    );
+    assert_eq!(desk.editor.describe(&desk.sim)["changes"], 0);
+    assert!(save(&mut desk, "none/b.ttt", None, false).is_err());
+    assert!(
+        desk.ask(&Action::Save {
+            path: " ".into(),
+            model: None,
+            may_overwrite: false
+        })
+        .is_err()
+    );
+}
