@@ -209,6 +209,8 @@ def it_is_run_and_pushed(page, body):
     trajectory = said(page)
     page.key(" ")
     page.shows(f"{STATE} == 'paused'", "a pause")
+    page.evaluate("swanilda.lookAlong(-0.95, -0.42)")  # the wall is behind the robot
+    page.rests()
     page.key("f")
     page.rests()
     at = page.place(body)

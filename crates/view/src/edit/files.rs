@@ -89,7 +89,7 @@ pub(super) fn bytes_of(sim: &mut Simulator) -> Result<Vec<u8>, String> {
         .call_api("sim.saveScene", &[])
         .map_err(|error| error.to_string())?;
     match saved.into_iter().next() {
-        Some(Data::Buffer(bytes) | Data::Text(bytes)) => Ok(bytes.to_vec()),
+        Some(Data::Buffer(bytes) | Data::Text(bytes)) => Ok(bytes),
         _ => Err("the scene has no bytes".into()),
     }
 }
@@ -183,7 +183,7 @@ impl Editor {
 fn outline(bytes: &[u8]) -> Result<Outline, String> {
     let file = File::read(bytes).map_err(|error| error.to_string())?;
     let file = SceneFile::new(file).map_err(|error| error.to_string())?;
-    Outline::new(file).map_err(|error| error.to_string())
+    Outline::new(file)
 }
 
 fn save_model(sim: &mut Simulator, path: &Path, base: i64) -> Result<(), String> {
