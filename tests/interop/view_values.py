@@ -95,7 +95,7 @@ def rotations_as_angles_and_quaternions(browser):
 def what_matters_comes_first(browser):
     names = "[...document.querySelectorAll('.essentials .property')].map(row => row.dataset.name)"
     same("of a shape", browser.evaluate(names), ["alias", "applyColor.diffuse", "size", "mass", "dynamic", "respondable"])
-    same("its size", browser.evaluate("[...document.querySelectorAll('.essentials [data-name=size] input')].map(field => field.value).join()"), "0.4000,0.3000,0.2000")
+    same("its size", browser.evaluate("[...document.querySelectorAll('.essentials [data-name=size] input')].map(field => field.value).join()"), "0.4,0.3,0.2")
     last = browser.evaluate("[...document.querySelectorAll('details.group')].slice(-3).map(group => [group.firstChild.textContent, group.open])")
     same("last", last, [["model", False], ["moving by mouse", False], ["settings of physics engines", False]])
     inert = "document.querySelector('[data-name=\"ode.softCfm\"] .unit')?.textContent ?? [...document.querySelectorAll('[data-name^=\"ode.\"] .unit')].map(unit => unit.textContent).join()"
