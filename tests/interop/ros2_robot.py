@@ -336,7 +336,7 @@ class Arm:
         states = newest(self.states, "joints")
         return {name: (states.position[i], states.velocity[i], states.effort[i]) for i, name in enumerate(states.name)}
 
-    def tell(self, of, numbers, is_done):
+    def command(self, of, numbers, is_done):
         until("a subscription", of.get_matched_subscriptions)
         of.write(make(FORWARD, data=numbers))
         until("what was told", lambda: is_done(self.now()))
@@ -423,12 +423,12 @@ def acts(arm):
 
 
 def forwards(arm):
-    arm.tell(arm.position, [-0.3, 0.4], lambda now: abs(now["shoulder"][0] + 0.3) < 0.01 and abs(now["elbow"][0] - 0.4) < 0.01)
-    arm.tell(arm.velocity, [2.0], lambda now: abs(now["spin"][1] - 2.0) < 0.05)
-    arm.tell(arm.velocity, [-1.0], lambda now: abs(now["spin"][1] + 1.0) < 0.05)
+    arm.command(arm.position, [-0.3, 0.4], lambda now: abs(now["shoulder"][0] + 0.3) < 0.01 and abs(now["elbow"][0] - 0.4) < 0.01)
+    arm.command(arm.velocity, [2.0], lambda now: abs(now["spin"][1] - 2.0) < 0.05)
+    arm.command(arm.velocity, [-1.0], lambda now: abs(now["spin"][1] + 1.0) < 0.05)
     # 2 kg and 1 N: half a metre per second faster each second.
     near(arm.now()["push"][1], 0, 0.02, "it is pushed by nothing")
-    arm.tell(arm.effort, [1.0], lambda now: now["push"][1] > 0.02)
+    arm.command(arm.effort, [1.0], lambda now: now["push"][1] > 0.02)
     before = arm.now()
     steps(19)
     after = arm.now()

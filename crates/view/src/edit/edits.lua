@@ -127,9 +127,9 @@ end
 local function lower(handle, own, others)
     for _ = 1, 200 do
         local z = bottom(handle)
-        local gap = math.min(distance(own, others), z > 0 and z or math.huge)
-        if gap == math.huge or gap < CLOSE then return end
-        lift(handle, -gap)
+        local free = math.min(distance(own, others), z > 0 and z or math.huge)
+        if free == math.huge or free < CLOSE then return end
+        lift(handle, -free)
     end
 end
 
@@ -314,7 +314,7 @@ local function place(handle, args)
 end
 
 -- Puts what is new below an object, at it; or at a place of the world.
-local function settle(handle, args)
+local function attach(handle, args)
     local isBelow = args.parent and args.parent ~= -1
     if isBelow then sim.setObjectParent(handle, args.parent, false) end
     if isScript(handle) then return end
@@ -323,7 +323,7 @@ end
 
 --- An object that is there already is one of the scene's now: see `add`.
 function M.adopt(args)
-    settle(args.handle, args)
+    attach(args.handle, args)
     return {label = 'Add ' .. alias(args.handle), selection = {args.handle}}
 end
 

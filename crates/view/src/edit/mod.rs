@@ -241,7 +241,7 @@ fn light_type(kind: &str) -> LightType {
     }
 }
 
-/// An error of `edits.lua` without its place there, which tells people nothing.
+/// An error of `edits.lua` without its place there, which is of no use to people.
 fn without_place(error: &str) -> String {
     let place = error
         .strip_prefix("[string \"")

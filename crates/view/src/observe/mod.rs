@@ -209,7 +209,7 @@ impl Observer {
         }
     }
 
-    /// Keeps nothing that lies in the memory of the simulator: it may be taken back. The next time it looks at everything.
+    /// Keeps nothing that lies in the memory of the simulator: it may be taken back. The next observation is of everything.
     pub(crate) fn let_go(&mut self, scene: &Scene) {
         let (scene_uid, errors) = (self.scene_uid, std::mem::take(&mut self.script_errors));
         self.forget();

@@ -112,8 +112,8 @@ function M.new(robot, part)
     subscribe(robot, values.topic, command)
     local made = {sense = published.sense}
 
-    local function tell(joints, speed)
-        for _, joint in ipairs(joints) do joint:tell('velocity', speed) end
+    local function turnWheels(joints, speed)
+        for _, joint in ipairs(joints) do joint:command('velocity', speed) end
     end
 
     local function drive(step)
@@ -121,8 +121,8 @@ function M.new(robot, part)
             now[axis] = limits[axis](isFinite(command[axis]) and command[axis] or 0, now[axis], step)
         end
         local half = now.angular * shape.separation / 2
-        tell(sides.left.joints, (now.linear - half) / shape.leftRadius)
-        tell(sides.right.joints, (now.linear + half) / shape.rightRadius)
+        turnWheels(sides.left.joints, (now.linear - half) / shape.leftRadius)
+        turnWheels(sides.right.joints, (now.linear + half) / shape.rightRadius)
         for _, one in pairs(sides) do
             for _, joint in ipairs(one.joints) do joint:actuate(step) end
         end
@@ -144,8 +144,8 @@ function M.new(robot, part)
     end
 
     function made.claim()
-        tell(sides.left.joints, 0)
-        tell(sides.right.joints, 0)
+        turnWheels(sides.left.joints, 0)
+        turnWheels(sides.right.joints, 0)
     end
 
     return made

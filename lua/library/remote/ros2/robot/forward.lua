@@ -18,14 +18,14 @@ function M.new(robot, part)
         end
         for i, joint in ipairs(joints) do
             joint.owner = made
-            joint:tell(interface, message.data[i])
+            joint:command(interface, message.data[i])
         end
     end)
 
     --- A motor of another kind stands still until it is told something; at its position it stays.
     function made.claim()
         for _, joint in ipairs(joints) do
-            if interface ~= 'position' and not joint.interface then joint:tell(interface, 0) end
+            if interface ~= 'position' and not joint.interface then joint:command(interface, 0) end
         end
     end
 

@@ -35,7 +35,7 @@ function Joint:clamped(value, interface)
 end
 
 --- Tells the joint a position, velocity or effort, for this step and those to come.
-function Joint:tell(interface, value)
+function Joint:command(interface, value)
     if value ~= value or math.abs(value) == math.huge then return end
     self:enter(interface)
     value = self:clamped(value, interface)
@@ -54,7 +54,7 @@ end
 --- Has the joint at a position at the end of the step: its motor turns steadily until then, where one in position control would be late. Actuators of MJCF have
 --- control of their own.
 function Joint:follow(position, step)
-    if self.isKinematic or self.hasActuator then return self:tell('position', position) end
+    if self.isKinematic or self.hasActuator then return self:command('position', position) end
     self:enter('velocity')
     local speed = (self:clamped(position, 'position') - self:position()) / step
     sim.setJointTargetVelocity(self.object, math.max(-self.fastest, math.min(self.fastest, speed)))
