@@ -78,8 +78,11 @@ pub(crate) fn perform(
             text,
             version,
         } => {
+            if let Some(present) = scripts::newer(sim, *handle, version)? {
+                return Ok(present);
+            }
             return editor.record(sim, action, |_, sim| {
-                let saved = scripts::save(sim, *handle, text, version)?;
+                let saved = scripts::save(sim, *handle, text)?;
                 Ok((set_label(sim, *handle, "the text"), saved))
             });
         }

@@ -18,18 +18,18 @@ pub(super) fn read(sim: &Simulator, handle: i64) -> Result<Value, String> {
     }))
 }
 
-/// Gives a script another text and lets it begin anew. If its text is not the one of `version` any more, nothing happens and the reply has that text.
-pub(super) fn save(
-    sim: &mut Simulator,
-    handle: i64,
-    text: &str,
-    version: &str,
-) -> Result<Value, String> {
+/// The reply to a page that would overwrite what it has not seen: the text, if it is not the one of `version` any more.
+pub(super) fn newer(sim: &Simulator, handle: i64, version: &str) -> Result<Option<Value>, String> {
     let mut present = read(sim, handle)?;
-    if present["version"] != version {
-        present["saved"] = false.into();
-        return Ok(present);
+    if present["version"] == version {
+        return Ok(None);
     }
+    present["saved"] = false.into();
+    Ok(Some(present))
+}
+
+/// Gives a script another text and lets it begin anew.
+pub(super) fn save(sim: &mut Simulator, handle: i64, text: &str) -> Result<Value, String> {
     let call = |sim: &mut Simulator, name: &str, arguments: &[Data]| {
         let result = sim.call_api(name, arguments);
         result.map(drop).map_err(|error| error.to_string())
