@@ -79,10 +79,10 @@ pub(crate) fn perform(
             version,
         } => {
             if let Some(present) = scripts::newer(sim, *handle, version)? {
-                return Ok(present);
+                return Ok(present); // nothing to undo
             }
             return editor.record(sim, action, |_, sim| {
-                let saved = scripts::save(sim, *handle, text)?;
+                let saved = scripts::save(sim, *handle, text, version)?;
                 Ok((set_label(sim, *handle, "the text"), saved))
             });
         }

@@ -28,8 +28,16 @@ pub(super) fn newer(sim: &Simulator, handle: i64, version: &str) -> Result<Optio
     Ok(Some(present))
 }
 
-/// Gives a script another text and lets it begin anew.
-pub(super) fn save(sim: &mut Simulator, handle: i64, text: &str) -> Result<Value, String> {
+/// Gives a script another text and lets it begin anew. If its text is not the one of `version` any more, nothing happens and the reply has that text.
+pub(super) fn save(
+    sim: &mut Simulator,
+    handle: i64,
+    text: &str,
+    version: &str,
+) -> Result<Value, String> {
+    if let Some(present) = newer(sim, handle, version)? {
+        return Ok(present);
+    }
     let call = |sim: &mut Simulator, name: &str, arguments: &[Data]| {
         let result = sim.call_api(name, arguments);
         result.map(drop).map_err(|error| error.to_string())

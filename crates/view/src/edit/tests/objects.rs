@@ -3,7 +3,6 @@
 use serde_json::json;
 
 use super::Desk;
-use crate::request::Action;
 
 #[test]
 fn the_tree_is_changed() {

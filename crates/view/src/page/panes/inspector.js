@@ -1,11 +1,11 @@
 // Properties of the selected object: grouped, live, editable where a script could write them.
 import { copyText, el, iconButton, setText } from '../dom.js';
-import { Sparkline } from './curves.js';
+import { Sparkline } from './plots/curves.js';
 import { arranged, FOLDED, MADE, madeRows, TITLES } from './inspect/essentials.js';
 import { JointsPane } from './inspect/joints.js';
 import { PoseBlock } from './inspect/pose.js';
 import { shownUnit } from './inspect/units.js';
-import { numbersOf } from './plots.js';
+import { numbersOf } from './plots/plots.js';
 import { drawImage } from './sensor_images.js';
 import { editorOf, formatted } from './values.js';
 

@@ -1,6 +1,6 @@
 // Floating views of scripts (sim.floatingViewAdd): what a camera or a vision sensor sees, or the curves of a graph, above the scene.
 import { el } from '../dom.js';
-import { drawCurves } from './curves.js';
+import { drawCurves } from './plots/curves.js';
 import { Floating } from './floating.js';
 import { drawImage } from './sensor_images.js';
 

@@ -1,6 +1,6 @@
 // The elements of simUI with many parts: tables, trees, plots, images, properties.
 import { el } from '../../dom.js';
-import { drawCurves } from '../curves.js';
+import { drawCurves } from '../plots/curves.js';
 import { scene3d } from './scene3d.js';
 
 const MANY = 300; // rows that a table has at once

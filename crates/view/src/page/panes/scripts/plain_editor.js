@@ -1,5 +1,5 @@
 // A text area in place of the editor component, for builds without it: what `makeEditor` of editor/editor.js returns.
-import { el } from '../dom.js';
+import { el } from '../../dom.js';
 
 const isSave = (event) => (event.ctrlKey || event.metaKey) && (event.key === 's' || event.key === 'Enter');
 

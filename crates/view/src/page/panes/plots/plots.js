@@ -1,5 +1,5 @@
 // Numbers of properties on the pane of curves: over a live run, whose steps the simulator sends, or over a recording.
-import { iconButton } from '../dom.js';
+import { iconButton } from '../../dom.js';
 
 const TYPE = 'application/x-swanilda-values'; // of what is dragged
 const POINTS = 20000; // of a curve; older ones go

@@ -1,5 +1,5 @@
 // Curves as files: tables of comma separated values, and pictures in SVG.
-import { el } from '../dom.js';
+import { el } from '../../dom.js';
 
 const SIZE = [900, 420];
 const MARGIN = { left: 64, right: 16, top: 16, bottom: 44 };

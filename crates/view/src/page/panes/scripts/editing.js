@@ -1,5 +1,5 @@
 // A script that is changed: the editor, texts that are not saved, and what to do when the text has changed elsewhere meanwhile.
-import { el, setText } from '../dom.js';
+import { el, setText } from '../../dom.js';
 import { codeRows } from './code_lines.js';
 import { PlainEditor } from './plain_editor.js';
 

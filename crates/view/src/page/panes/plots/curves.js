@@ -1,5 +1,5 @@
 // Curves on a canvas: of properties, graphs, and plots of scripts.
-import { el, iconButton } from '../dom.js';
+import { el, iconButton } from '../../dom.js';
 import { csv, download, picture } from './exports.js';
 
 const MARGIN = { left: 52, right: 10, top: 8, bottom: 22 };

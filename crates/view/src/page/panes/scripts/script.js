@@ -1,7 +1,7 @@
 // Scripts to read and change: line numbers, colours for Lua, the line of the last error.
-import { el, iconButton, setText } from '../dom.js';
+import { el, iconButton, setText } from '../../dom.js';
 import { codeRows } from './code_lines.js';
-import { ScriptEditing } from './script_editing.js';
+import { ScriptEditing } from './editing.js';
 
 export class ScriptPane {
   constructor(pane, page) {
