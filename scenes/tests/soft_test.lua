@@ -13,7 +13,8 @@ describe('a rope', function()
     local rope, box
 
     before_each(function()
-        sim, simSoft = require 'sim', require 'simSoft'
+        sim = require 'sim'
+        simSoft = require 'simSoft'
         rope = simSoft.createRope{from = {0, 0, 1}, to = {0, 0, 0.5}, count = 10, mass = 0.2, drag = 5, damping = 0.01}
         box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
         sim.setObjectPosition(box, {0, 0, 0.45})
