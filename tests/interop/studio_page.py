@@ -145,5 +145,6 @@ class Page:
 
     def select(self, *aliases):
         for i, alias in enumerate(aliases):
+            self.rests()
             self.press(self.row(alias), CTRL if i else 0)
         self.shows(f"swanilda.store.selection.length == {len(aliases)}", "the selection")

@@ -195,12 +195,17 @@ export class InspectorPane {
     const { handle, page } = this;
     const edit = { edit: 'resize', arguments: { handle, size: value } };
     const done = row.name === 'size' ? page.ask('edit', edit) : page.ask('set', { handle, name: row.name, value });
-    done.then(null, back);
+    const entry = this.rows.get(row.name) ?? {};
+    entry.asked = done;
+    const over = () => entry.asked === done && (entry.asked = null);
+    done.then(over, () => (over(), back()));
   }
 
+  /** Values that were on their way when another one was asked for are no news. */
   _values() {
-    const { handle, values } = this.store.properties;
+    const { handle, values: all } = this.store.properties;
     if (handle !== this.handle) return;
+    const values = this.pose?.asked ? all.filter(({ name }) => !this.poses[name]) : all;
     const time = this.store.scene.time ?? 0;
     for (const fresh of values) this._value(fresh, time);
     const known = new Map(this.shown?.map((row) => [row.name, row]) ?? []);
@@ -212,7 +217,7 @@ export class InspectorPane {
 
   _value(fresh, time) {
     const entry = this.rows.get(fresh.name);
-    if (!entry) return;
+    if (!entry || entry.asked) return;
     entry.row.value = fresh.value;
     if (entry.editor) entry.editor.show(fresh.value);
     else setText(entry.shown, this._text(entry.row));

@@ -75,7 +75,7 @@ export class Files {
     const hint = el('p', { id: 'save-hint', class: 'answer' }, 'On the machine of the simulator, from the folder of the scene. .ttt, .simscene.xml, .glb, .gltf; without an ending a folder for version control.');
     const form = el('form', { method: 'dialog', onsubmit: (event) => this._submit(event) }, el('label', {}, 'File', this.path), hint, this.problem, el('details', {}, el('summary', {}, 'What was changed since it was loaded or saved'), this.changes), el('div', { class: 'question-buttons' }, this.confirm, cancel));
     this.title = el('h2', { id: 'save-title' });
-    this.dialog = el('dialog', { class: 'question save', 'aria-labelledby': 'save-title' }, this.title, form);
+    this.dialog = el('dialog', { class: 'modal save', 'aria-labelledby': 'save-title' }, this.title, form);
     this.dialog.addEventListener('keydown', (event) => event.stopPropagation());
     this.path.addEventListener('input', () => this._reset());
     document.body.append(this.dialog);

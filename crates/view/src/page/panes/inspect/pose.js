@@ -92,7 +92,8 @@ export class PoseBlock {
     const inParent = this._inWorld ? poseIn(parent, pose) : pose;
     rows.pose.value = inParent;
     if (rows.absolutePose) rows.absolutePose.value = this._inWorld ? pose : poseProduct(parent, pose);
-    this.how.set(inParent).catch(() => {
+    const asked = (this.asked = this.how.set(inParent));
+    asked.finally(() => this.asked === asked && (this.asked = null)).catch(() => {
       rows.pose.value = before[0];
       if (rows.absolutePose) rows.absolutePose.value = before[1];
       this.reset();
