@@ -1,5 +1,6 @@
 //! What a person does with a window, and what that changes. Handlers of scripts run later, when the queue of events is delivered.
 
+use super::canvas::CanvasInput;
 use super::widgets::{
     Button, Checkbox, Combobox, Edit, Image, Plot, Properties, Radiobutton, Scene3d, Slider,
     Spinbox, Svg, Table, Tabs, TextBrowser, Tree, WidgetKind,
@@ -97,6 +98,8 @@ pub enum Input {
         /// Modifier keys that are held down.
         modifiers: Modifiers,
     },
+    /// The pointer or a key on a canvas, for the program that draws it.
+    Canvas(CanvasInput),
     /// A link of a label or a text is followed.
     Link(String),
     /// A point of a curve is clicked.
@@ -160,6 +163,7 @@ impl Window {
                 at,
                 modifiers,
             } => self.move_mouse(id, mouse, at, modifiers),
+            Input::Canvas(input) => return self.canvas_input(id, input).ok_or(refused)?,
             Input::Link(href) => self.activate_link(id, &href),
             Input::Point { curve, index, at } => self.click_point(id, &curve, index, at),
             Input::Legend(curve) => self.click_legend(id, &curve),

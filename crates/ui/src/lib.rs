@@ -17,7 +17,7 @@
 //! [`Ui::changes_since`] is the same with the windows that have changed since a revision only, and `removed`, the ids of those that are gone.
 //! `complete` is true when all windows are in it, because too much was removed meanwhile: those that are not in it are gone.
 //!
-//! A window has `id` (text), `revision` (of its last change), `source` (`simUI`, `console`, `editor`), `owner` (handle of the script), `title`,
+//! A window has `id` (text), `revision` (of its last change), `source` (`simUI`, `console`, `editor`, `program`), `owner` (handle of the script), `title`,
 //! `visible`, `enabled`, `modal`, `resizable`, `closeable`, `activate`, `placement` (`center`, `relative`, `absolute`), `position` and `size`
 //! (two integers, pixels), `style` (a style sheet of Qt), `content` (a container).
 //!
@@ -47,6 +47,7 @@
 //! | `tree` | `items` (parents' order: `id`, `parent` (0: top), `texts`, `expanded`), `columnCount`, `columnHeaders` (a list), `showHeader`, `autosizeHeader`, `sortable`, `selected` (0: none) |
 //! | `plot` | `curves` (`name`, `type`, `color` (0 to 255), `style`, `scatterShape`, `scatterSize`, `lineSize`, `lineStyle`, `inLegend`, `selectable`, `track`, `x`, `y`), `xRange`, `yRange`, `xLabel`, `yLabel`, `xTicks`, `yTicks`, `xTickLabels`, `yTickLabels`, `legendVisible`, `square`, `colors`, `panX`, `panY`, `zoomX`, `zoomY`, `replots` |
 //! | `properties` | `rows` (`name`, `type`, `value`, `flags`, `displayedName`, `displayedValue`, `icon`, `description`), `selected`, `menu` (key and title) |
+//! | `canvas` | `width`, `height`, `picture` (base64 of a PNG file; empty before the first one): all of a window that a program draws |
 //! | `scene3d` | `nodes` (`id`, `type`, `parent`, `enabled`, `params`), `clearColor` |
 //!
 //! # What a page sends
@@ -63,6 +64,8 @@
 //! | `expand` | tree | `item`, `expanded` |
 //! | `key` | table, properties | `key` (of Qt), `text`, `modifiers` (`shift`, `control`, `alt`) |
 //! | `mouse` | image, svg | `event` (`down`, `up`, `move`), `x`, `y`, `modifiers` |
+//! | `pointer` | canvas | `event` (`down`, `up`, `move`, `wheel`), `x`, `y`, `button` (0 left, 1 middle, 2 right), `buttons` (bits: 1 left, 2 right, 4 middle), `dx`, `dy` (of the wheel, pixels), `modifiers` |
+//! | `stroke` | canvas | `down`, `key` (of Qt), `text`, `modifiers` |
 //! | `link` | label, text-browser | `href` |
 //! | `point`, `legend` | plot | `curve`, and of a point `index`, `x`, `y` |
 //! | `node` | scene3d | `node` |
@@ -72,6 +75,7 @@
 //! | `banner` | without window | `banner`, `key` |
 
 mod build;
+mod canvas;
 mod dialogs;
 mod editors;
 mod error;
@@ -92,11 +96,13 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use serde_json::{Value, json};
 
 use build::Warning;
+use canvas::CANVAS;
 use editors::Panes;
 use json::{Action, action};
 use scene::Data;
 use views::FloatingViews;
 
+pub use canvas::{Canvas, CanvasInput, Pointer, PointerAction};
 pub use dialogs::{Banner, DialogKind, Dialogs};
 pub use editors::EditorState;
 pub use error::{UiError, UiResult};
@@ -112,6 +118,8 @@ pub use window::{Event, Window, WindowSource};
 
 /// Inputs that may wait for the simulator; further ones are refused.
 const MAX_WAITING: usize = 10_000;
+/// Largest side that a person gives a window, pixels.
+const MAX_SIDE: i64 = 8192;
 /// Removals that are remembered for pages.
 const MAX_REMOVED: usize = 1000;
 
@@ -130,6 +138,8 @@ pub struct Ui {
     forgotten: u64,
     events: VecDeque<Event>,
     warned: BTreeSet<String>,
+    /// A page has asked for changes.
+    asked: std::cell::Cell<bool>,
     /// The keys that were held down at the last input.
     pub modifiers: Modifiers,
     /// What a script has put there.
@@ -335,6 +345,7 @@ impl Ui {
 
     /// Everything a page shows. The head of this module describes it.
     pub fn snapshot(&self) -> Value {
+        self.asked.set(true);
         json!({
             "revision": self.revision,
             "windows": self.windows.values().map(Window::json).collect::<Vec<_>>(),
@@ -346,6 +357,7 @@ impl Ui {
 
     /// What has changed since a revision; None for nothing. The head of this module describes it.
     pub fn changes_since(&self, since: u64) -> Option<Value> {
+        self.asked.set(true);
         if since == self.revision {
             return None;
         }
@@ -386,7 +398,7 @@ impl Ui {
                 self.rearrange(&window, |window| window.position = position)
             }
             Action::Resize { window, size } => {
-                self.rearrange(&window, |window| window.size = size.map(|s| s.max(1)))
+                self.resize(&window, size.map(|side| side.clamp(1, MAX_SIDE)))
             }
             Action::Banner { banner, key } => {
                 let event = self.dialogs.press_banner(banner, &key)?;
@@ -403,8 +415,12 @@ impl Ui {
     /// Why it is refused.
     pub fn widget_input(&mut self, window: &str, widget: i64, input: Input) -> Result<(), String> {
         self.check_reachable(window)?;
-        if let Input::Key { modifiers, .. } | Input::Mouse { modifiers, .. } = &input {
-            self.modifiers = *modifiers;
+        match input {
+            Input::Key { modifiers, .. } | Input::Mouse { modifiers, .. } => {
+                self.modifiers = modifiers;
+            }
+            Input::Canvas(input) => return self.canvas_input(window, widget, input),
+            _ => {}
         }
         self.change(window, |window| {
             window.input(widget, input).map_err(UiError::Other)
@@ -442,6 +458,10 @@ impl Ui {
     /// When the window cannot be closed by persons.
     pub fn close(&mut self, handle: &str, escape: bool) -> Result<(), String> {
         self.check_reachable(handle)?;
+        if self.is_canvas(handle) {
+            // Its program says what becomes of it.
+            return self.canvas_input(handle, CANVAS, CanvasInput::Close);
+        }
         self.change(handle, |window| {
             if !escape && !window.closeable {
                 return Err(UiError::other(format!(
@@ -456,6 +476,13 @@ impl Ui {
             Ok(())
         })
         .map_err(|error| error.to_string())
+    }
+
+    fn resize(&mut self, handle: &str, size: [i64; 2]) -> Result<(), String> {
+        if self.is_canvas(handle) {
+            return self.canvas_input(handle, CANVAS, CanvasInput::Resize(size));
+        }
+        self.rearrange(handle, |window| window.size = size)
     }
 
     fn rearrange(&mut self, handle: &str, change: impl FnOnce(&mut Window)) -> Result<(), String> {

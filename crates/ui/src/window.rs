@@ -41,6 +41,8 @@ pub enum WindowSource {
     Console,
     /// `sim.textEditorOpen`.
     Editor,
+    /// A program beside the simulator, which draws it.
+    Program,
 }
 
 impl WindowSource {
@@ -49,6 +51,7 @@ impl WindowSource {
             Self::SimUi => "simUI",
             Self::Console => "console",
             Self::Editor => "editor",
+            Self::Program => "program",
         }
     }
 }

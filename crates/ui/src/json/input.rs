@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::super::canvas::{CanvasInput, Pointer, PointerAction};
 use super::super::input::{Input, InputValue, Modifiers, MouseAction};
 
 /// What a page asks for.
@@ -97,6 +98,13 @@ fn input(fields: &Fields<'_>, kind: &str) -> Result<Input, String> {
                 modifiers: fields.modifiers(),
             }
         }
+        "pointer" => Input::Canvas(CanvasInput::Pointer(pointer(fields)?)),
+        "stroke" => Input::Canvas(CanvasInput::Key {
+            down: fields.flag("down"),
+            key: fields.int("key")?,
+            text: fields.text("text").unwrap_or_default(),
+            modifiers: fields.modifiers(),
+        }),
         "link" => Input::Link(fields.text("href")?),
         "point" => {
             let at = [fields.number("x")?, fields.number("y")?];
@@ -115,6 +123,20 @@ fn input(fields: &Fields<'_>, kind: &str) -> Result<Input, String> {
             text: fields.text("text")?,
         },
         _ => return Err(format!("there is no input of type '{kind}'")),
+    })
+}
+
+fn pointer(fields: &Fields<'_>) -> Result<Pointer, String> {
+    let action = PointerAction::named(&fields.text("event")?)
+        .ok_or("the field 'event' is 'down', 'up', 'move' or 'wheel'")?;
+    let or_zero = |name| fields.number(name).unwrap_or(0.0);
+    Ok(Pointer {
+        action,
+        at: [fields.number("x")?, fields.number("y")?],
+        button: fields.int("button").unwrap_or(0),
+        buttons: fields.int("buttons").unwrap_or(0),
+        delta: ["dx", "dy"].map(or_zero),
+        modifiers: fields.modifiers(),
     })
 }
 

@@ -60,6 +60,9 @@ impl Window {
                 "wordWrap": browser.word_wrap, "url": browser.url,
             }),
             WidgetKind::Image(image) => image_json(image),
+            WidgetKind::Canvas(canvas) => json!({
+                "width": canvas.size[0], "height": canvas.size[1], "picture": base64(&canvas.picture),
+            }),
             WidgetKind::Svg(svg) => json!({"text": svg.text}),
             WidgetKind::Table(table) => table_json(table),
             WidgetKind::Tree(tree) => tree_json(tree),

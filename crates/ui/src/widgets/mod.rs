@@ -10,6 +10,8 @@ mod tree;
 
 use std::collections::BTreeMap;
 
+use super::canvas::Canvas;
+
 pub use inputs::{
     Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox,
     TextBrowser, TextType,
@@ -184,6 +186,7 @@ kinds! {
     Table "table" "table";
     Tree "tree" "tree";
     TextBrowser "text-browser" "text-browser";
+    Canvas "canvas" "canvas";
     Plot "plot" "plot";
     Properties "properties" "properties";
     Scene3d "scene3d" "scene3d";
