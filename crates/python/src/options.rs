@@ -22,7 +22,7 @@ pub struct Given {
 
 impl Given {
     /// The options for a scene.
-    pub fn options(self, scene: Option<&Path>) -> Options {
+    pub fn options(self, py: Python<'_>, scene: Option<&Path>) -> Options {
         let folder = scene.map(swanilda::Simulator::folder_of_scene);
         let package_dirs = folder.into_iter();
         let permissions = if self.unsafe_functions {
@@ -39,11 +39,24 @@ impl Given {
                 .chain(self.package_dirs.unwrap_or_default())
                 .collect(),
             data_dir: self.data_dir,
+            python: executable(py),
             render_threads: self.render_threads.and_then(NonZero::new),
             permissions,
             ..defaults
         }
     }
+}
+
+/// This Python, for programs that work for scripts; None where a program contains it.
+fn executable(py: Python<'_>) -> Option<String> {
+    let name: String = py
+        .import("sys")
+        .ok()?
+        .getattr("executable")
+        .ok()?
+        .extract()
+        .ok()?;
+    Path::new(&name).is_file().then_some(name)
 }
 
 /// The type of script of that name.

@@ -73,7 +73,7 @@ impl Simulator {
             verbosity,
             render_threads,
         };
-        let options = given.options(scene.as_deref());
+        let options = given.options(py, scene.as_deref());
         let this = Self::filled(py, options, quiet, scene, kind, empty)?;
         if let Some(step) = time_step {
             worlds::get(this.number)?

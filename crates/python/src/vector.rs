@@ -249,7 +249,7 @@ impl Vector {
             // Worlds are spread over the processors already.
             render_threads: Some(1),
         };
-        let options = given.options(Some(&declared.scene));
+        let options = given.options(py, Some(&declared.scene));
         let declaration = declared.declaration(options)?;
         let signals = Signals::default();
         let wants_end = signals.wants_end();

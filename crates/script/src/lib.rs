@@ -84,7 +84,7 @@ pub use property::{
     Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,
     Vector3,
 };
-pub use python_runtime::{EmbeddedScript, PythonHost, ScriptCalls};
+pub use python_runtime::{EmbeddedScript, LaunchError, PythonHost, ScriptCalls, start_python};
 pub use ros_options::RosOptions;
 pub use state_hash::ChangedValue;
 pub use sys_call::SysCall;

@@ -86,6 +86,13 @@ impl ScriptCallback {
         sim.call_handler(&script, &self.handler, args)
     }
 
+    /// Logs a line in the name of the script, if it still runs.
+    pub fn log(&self, level: i64, text: &str) {
+        if let Some((sim, script)) = self.sim.upgrade().zip(self.script.upgrade()) {
+            sim.log_from(&script, level, text);
+        }
+    }
+
     /// Logs a warning, if the script still runs.
     pub fn warn(&self, text: &str) {
         if let Some(sim) = self.sim.upgrade() {

@@ -52,6 +52,11 @@ impl Cx<'_> {
         change(&mut ui.borrow_mut())
     }
 
+    /// The windows of scripts, for what changes them between calls.
+    pub fn windows(&self) -> Rc<RefCell<Ui>> {
+        self.app().ui.clone()
+    }
+
     /// Destroys a window when the calling script ends.
     pub fn own_window(&mut self, window: &str) {
         self.own(Item::Window(window.to_owned()));

@@ -49,6 +49,8 @@ pub struct Options {
     pub count_lines: bool,
     /// Whether processes of scripts in Python listen for a debugger of Python (debugpy).
     pub debug_python: bool,
+    /// The Python of the program around the simulator, for programs that work for scripts.
+    pub python: Option<String>,
     /// Whether the error for a missing module has CoppeliaSim's text, with every place that was searched.
     pub original_errors: bool,
     /// Whether `simOMPL.compute` sets its task up first, as in CoppeliaSim up to 4.1.
@@ -83,6 +85,7 @@ impl Default for Options {
             limits: None,
             count_lines: false,
             debug_python: false,
+            python: None,
             original_errors: false,
             sets_up_plans: false,
             render_threads: None,

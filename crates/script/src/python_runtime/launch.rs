@@ -41,17 +41,25 @@ const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
 
 /// Why there is no process.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum LaunchError {
+pub enum LaunchError {
+    /// Programs must not be started.
     #[error("a script in Python can do what a program can: {0}")]
     Denied(#[from] Denied),
+    /// There is no such interpreter.
     #[error(
         "The Python interpreter could not be called. It is currently set as: '{program}' ({reason}). Install Python 3.9 or newer, for \
          instance by 'apt install python3', or set another interpreter with -D python=PATH."
     )]
     NotStarted {
+        /// The interpreter.
         program: String,
+        /// The error of the system.
         reason: std::io::Error,
     },
+    /// It has ended.
+    #[error("the simulator is gone.")]
+    NoSimulator,
+    /// The program around the simulator has a Python that does not work.
     #[error("Python cannot run scripts: {0}")]
     NotEmbedded(String),
 }
@@ -115,7 +123,11 @@ pub(super) fn embed(
     env: &Rc<Env>,
 ) -> Result<Rc<dyn EmbeddedScript>, LaunchError> {
     sim.options.permissions.check_run("python3")?;
-    let script = OutsideScript::start(host, &modules(&[EMBEDDED]), ScriptCalls::new(env));
+    let script = OutsideScript::start(
+        host,
+        &modules(&[&MODULES[..], &[EMBEDDED]].concat()),
+        ScriptCalls::new(env),
+    );
     Ok(Rc::new(script.map_err(LaunchError::NotEmbedded)?))
 }
 
@@ -124,6 +136,25 @@ pub(super) fn embed(
 /// # Errors
 /// When programs must not be started, or there is no such interpreter.
 pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchError> {
+    start_modules(sim, interpreter, &modules(&MODULES))
+}
+
+/// Starts a program in Python that works for a script and ends with the simulator: the function `run` of the last of its modules, which are names and
+/// texts in the order of their dependencies, gets the connection. The interpreter is that of `-D python`, of a virtual environment beside the
+/// scene, of the program around the simulator, or the system's.
+///
+/// # Errors
+/// When programs must not be started, or there is no such interpreter.
+pub fn start_python(env: &Env, parts: &[(&str, &str)]) -> Result<PeerProcess, LaunchError> {
+    let sim = env.sim.upgrade().ok_or(LaunchError::NoSimulator)?;
+    let interpreter = chosen_interpreter(&sim, None)
+        .or_else(|| environment_beside(&scene_folders(&sim, &env.script)))
+        .or_else(|| sim.options.python.clone())
+        .unwrap_or_else(|| "python3".into());
+    start_modules(&sim, &interpreter, &modules(parts))
+}
+
+fn start_modules(sim: &Sim, interpreter: &str, modules: &[u8]) -> Result<PeerProcess, LaunchError> {
     sim.options.permissions.check_run(interpreter)?;
     let path = Path::new(interpreter);
     let mut words = interpreter.split_whitespace();
@@ -149,17 +180,17 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
         variables.push((DEBUG, "1"));
     }
     let mut process = PeerProcess::start(program, &args, None, &variables).map_err(failed)?;
-    // One that has ended already is noticed when it is to load the script.
-    let _ = process.send(&modules(&[]));
+    // One that has ended already is noticed when it is to do something.
+    let _ = process.send(modules);
     Ok(process)
 }
 
-/// The modules of a process, and more.
-fn modules(more: &[(&str, &str)]) -> Vec<u8> {
+/// The message with the modules of a process.
+fn modules(parts: &[(&str, &str)]) -> Vec<u8> {
     let mut message = Encoder::default();
     let module =
         |&(name, text): &(&str, &str)| Data::Array(vec![Data::text(name), Data::text(text)]);
-    let modules: Vec<Data> = MODULES.iter().chain(more).map(module).collect();
+    let modules: Vec<Data> = parts.iter().map(module).collect();
     message.list(&modules);
     message.into_bytes()
 }

@@ -1,4 +1,4 @@
-"""First code of a script's process: starts the process that runs the script, and ends everything with the simulator.
+"""First code of a script's process, and of other programs in Python: starts the process that runs the script, and ends everything with the simulator.
 
 Standard input is the connection to the simulator. Standard output is a socket that closes when the simulator ends, however it ends.
 This process only watches: it kills the script and all that the script has started, and reports how the script ended. It is in a process
@@ -75,7 +75,7 @@ def read_exactly(fd, count):
 
 
 def load_modules(texts):
-    """Makes modules of the texts, which are named in the order of their dependencies."""
+    """Makes modules of the texts, which are named in the order of their dependencies; the last one."""
     import sys
     import types
 
@@ -83,10 +83,9 @@ def load_modules(texts):
         module = types.ModuleType(name)
         sys.modules[name] = module
         exec(compile(text, '<%s>' % name, 'exec'), module.__dict__)
+    return module
 
 
 connection = split()
-load_modules(marshal.loads(read_exactly(connection, int.from_bytes(read_exactly(connection, 4), 'little'))))
-import swanilda_script
-
-swanilda_script.run(connection)
+main = load_modules(marshal.loads(read_exactly(connection, int.from_bytes(read_exactly(connection, 4), 'little'))))
+main.run(connection)
