@@ -8,7 +8,7 @@ Of unpacked_scene: the files of a model of tests/data, which is unpacked into fu
 Of mesh_* and gltf_asset: a square in each format.
 
 Of urdf, sdf and mjcf: the files in the tests. Of ros_message and ros2_message: the built-in types, with messages that fit some of them. Of rtps:
-how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
+how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of qml_message: a message of each kind. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
 
 Of compressed_image: PNG files of four kinds and a JPEG file.
 """
@@ -252,6 +252,16 @@ def python_message():
         write(f"python_message/{number}", marshal.dumps(value, 2))
 
 
+def qml_message():
+    png = b"\x89PNG\r\n\x1a\n"
+    messages = [
+        ("hello", [6, 12, 0]), ("lacks", "x"), ("loaded",), ("failed", "x"), ("window", 1, "x", True, 3, 2, False), ("gone", 1),
+        ("picture", 1, 3, 2, png), ("event", "x", "{}"), ("said", "info", "x"), ("answer", 1, [1.5, "x", None]), ("refused", 1, "x"),
+    ]
+    for number, message in enumerate(messages):
+        write(f"qml_message/{number}", marshal.dumps(message, 2))
+
+
 def view_request():
     text = (ROOT.parent / "crates" / "view" / "src" / "request" / "tests.rs").read_text()
     for number, request in enumerate(re.findall(r"\{\\?\"[^`\n]*?\}", text)):
@@ -284,7 +294,7 @@ def compressed_image():
     write("compressed_image/grey.jpg", base64.b64decode(jpeg))
 
 
-TARGETS = [compressed_image, scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request, mcp_message]
+TARGETS = [compressed_image, scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, qml_message, view_request, mcp_message]
 for make in TARGETS:
     if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
         make()

@@ -1,18 +1,27 @@
 --[[
-User interfaces in QML. Nothing here runs QML: an engine keeps its source, which a window of simUI shows with a notice, so that pages can read it. The window lists the
-events that the script sends, and a person can send events to the script from it, as the interface would.
+User interfaces in QML. Where there is a Python with PySide6 (`pip install swanilda[qml]`; `-D python=PATH` names another one), an interface runs in a process
+of its own, which draws into memory and ends with the simulator; its windows are on the page like those of simUI. Otherwise, and where programs must not be
+started, a window of simUI shows the source and why it is not drawn, lists the events that the script sends, and a person can send events to the script from it.
 
-Events have a name and data, which are JSON between a script and its interface.
+Events have a name and data, which are JSON between a script and its interface. In QML, `simBridge.sendEvent(name, data)` sends one to the script. One of the
+script calls the function of that name at the root of the interface with the data, and emits `simBridge.eventReceived(name, data)`. `sendEventRaw` and
+`eventReceivedRaw` have the JSON as a text.
+
+What is wrong with an interface when it is loaded is an error of the script, with file, line and column; what goes wrong later is logged, as is `console.log`.
 ]]
+
+local _, simQML = ...
 
 local simUI = require 'simUI'
 local json = require 'dkjson'
 
-local simQML = {}
+local start, stop, send, version = simQML.start, simQML.stop, simQML.send, simQML.version
+simQML.start, simQML.stop, simQML.send, simQML.version = nil, nil, nil, nil
+
 local engines, count, byWindow = {}, 0, {}
 
 local SOURCE <const>, SENT <const>, NAME <const>, DATA <const> = 2, 3, 4, 5
-local NOTICE <const> = 'QML is not drawn here. This is its source. Events that it would send can be sent below.'
+local NOTICE <const> = 'QML is not drawn here. %s This is its source. Events that it would send can be sent below.'
 local MAX_EVENTS <const> = 100 -- that are shown
 
 -- The numbers are ours.
@@ -33,13 +42,15 @@ function simQML.createEngine()
 end
 
 local function close(engine)
+    if engine.number then stop(engine.number) end
+    engine.number = nil
     if not engine.window then return end
     byWindow[engine.window] = nil
     simUI.destroy(engine.window)
     engine.window = nil
 end
 
---- Ends an engine and closes its window.
+--- Ends an engine and closes its windows.
 -- @api simQML.destroyEngine(string handle)
 -- @param handle the engine
 function simQML.destroyEngine(handle)
@@ -47,7 +58,7 @@ function simQML.destroyEngine(handle)
     engines[handle] = nil
 end
 
----------------------------------------------------------------- the window
+---------------------------------------------------------------- the source in a window
 
 local function escaped(text) return (text:gsub('[&<>"]', {['&'] = '&amp;', ['<'] = '&lt;', ['>'] = '&gt;', ['"'] = '&quot;'})) end
 
@@ -59,9 +70,9 @@ local function raised(ui)
     if engine.handler then engine.handler(engine.handle, name, data) end
 end
 
-local function open(engine)
+local function showSource(engine, source, reason)
     _S.simQML = {raised = raised}
-    local title = engine.source:match 'title:%s*"([^"]*)"' or 'QML'
+    local title = source:match 'title:%s*"([^"]*)"' or 'QML'
     local text = ([[<ui title="%s" closeable="true" resizable="true" size="500,400">
         <label text="%s" word-wrap="true"/>
         <text-browser id="%d" type="plain" text=""/>
@@ -71,17 +82,29 @@ local function open(engine)
             <label text="Data (JSON):"/><edit id="%d" value="{}"/>
         </group>
         <button text="Send to the script" on-click="_S.simQML.raised"/>
-    </ui>]]):format(escaped(title), escaped(NOTICE), SOURCE, SENT, NAME, DATA)
+    </ui>]]):format(escaped(title), escaped(NOTICE:format(reason)), SOURCE, SENT, NAME, DATA)
     engine.window = simUI.create(text)
     byWindow[engine.window] = engine
-    simUI.setText(engine.window, SOURCE, engine.source)
+    simUI.setText(engine.window, SOURCE, source)
+    addLog(430, 'simQML: QML is not drawn here; a window shows its source. ' .. reason) -- 430: sim.verbosity_scriptwarnings
 end
 
-local function show(engine, source)
+---------------------------------------------------------------- loading
+
+local function show(engine, source, name)
     close(engine)
-    engine.source = source
-    open(engine)
-    addLog(430, 'simQML: QML is not drawn in Swanilda; a window shows its source.') -- 430: sim.verbosity_scriptwarnings
+    local function received(_, event, text)
+        if engine.handler then engine.handler(engine.handle, event, tostring(text)) end
+    end
+    local number, lacking, wrong = start(engine.handle, source, name, received)
+    if wrong then error(wrong, 3) end
+    if lacking then return showSource(engine, source, lacking) end
+    engine.number = number
+end
+
+local function folderOfScene()
+    local sim = require 'sim'
+    return (sim.getStringProperty(sim.handle_scene, 'scenePath', {noError = true}) or ''):match '^(.*)[/\\]'
 end
 
 --- Loads an interface from a file.
@@ -90,22 +113,29 @@ end
 -- @param filename a file with QML; without a folder that is its own, in that of the scene
 function simQML.load(engineHandle, filename)
     local engine = engineOf(engineHandle)
-    local sim = require 'sim'
-    local folder = (sim.getStringProperty(sim.handle_scene, 'scenePath', {noError = true}) or ''):match '^(.*)[/\\]'
+    local folder = folderOfScene()
     local file, message = io.open(filename, 'rb')
-    if not file and folder then file = io.open(folder .. '/' .. filename, 'rb') end
+    if not file and folder then
+        filename = folder .. '/' .. filename
+        file = io.open(filename, 'rb')
+    end
     if not file then error(message, 2) end
     local source = file:read 'a'
     file:close()
-    show(engine, source)
+    if not filename:find '[/\\]' then filename = './' .. filename end
+    show(engine, source, filename)
 end
 
 --- Loads an interface from a text.
 -- @api simQML.loadData(string engineHandle, string data, string basepath = '')
 -- @param engineHandle the engine
 -- @param data QML
--- @param basepath without effect: nothing that the text names is loaded
-function simQML.loadData(engineHandle, data, _) show(engineOf(engineHandle), tostring(data)) end
+-- @param basepath the folder of the files that the text names; else that of the scene
+function simQML.loadData(engineHandle, data, basepath)
+    local engine = engineOf(engineHandle)
+    local folder = basepath and basepath ~= '' and basepath or folderOfScene()
+    show(engine, tostring(data), folder and folder .. '/data.qml' or 'data.qml')
+end
 
 ---------------------------------------------------------------- events
 
@@ -116,6 +146,7 @@ function simQML.loadData(engineHandle, data, _) show(engineOf(engineHandle), tos
 -- @param eventData JSON
 function simQML.sendEventRaw(engineHandle, eventName, eventData)
     local engine = engineOf(engineHandle)
+    if engine.number then return send(engine.number, eventName, tostring(eventData)) end
     local sent = engine.sent
     if #sent == MAX_EVENTS then table.remove(sent, 1) end
     sent[#sent + 1] = eventName .. ' ' .. tostring(eventData)
@@ -193,9 +224,9 @@ function simQML.imageDataURL(data, width, height, format, data_format)
     return ('data:image/%s;base64,'):format(kind == 'jpg' and 'jpeg' or kind) .. tostring(encoded)
 end
 
---- The version of Qt: there is none.
+--- The version of Qt that draws interfaces.
 -- @api int[] version = simQML.qtVersion()
--- @return version {0, 0, 0}
-function simQML.qtVersion() return {0, 0, 0} end
+-- @return version three numbers; zeros where QML is not drawn
+function simQML.qtVersion() return version() end
 
 return simQML

@@ -8059,7 +8059,7 @@ class _simQML:
         """Makes an engine, which can load one interface.
         """
     def destroyEngine(self, handle: str, /) -> None:
-        """Ends an engine and closes its window.
+        """Ends an engine and closes its windows.
         handle: the engine
         """
     def imageDataURL(self, data: bytes | str, width: int, height: int, format: str | None = ..., data_format: int | None = ..., /) -> str:
@@ -8079,10 +8079,10 @@ class _simQML:
         """Loads an interface from a text.
         engineHandle: the engine
         data: QML
-        basepath: without effect: nothing that the text names is loaded
+        basepath: the folder of the files that the text names; else that of the scene
         """
     def qtVersion(self, /) -> list[int]:
-        """The version of Qt: there is none.
+        """The version of Qt that draws interfaces.
         """
     def sendEvent(self, engine: str, name: str, data: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Sends an event to an interface.

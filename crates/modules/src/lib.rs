@@ -33,6 +33,7 @@ pub static ALL: &[&Module] = &[
     &modules_sensing::sim_im::MODULE,
     &modules_motion::sim_ompl::MODULE,
     &modules_geometry::sim_open_mesh::MODULE,
+    &modules_windows::sim_qml::MODULE,
     &modules_messaging::sim_remote_api::MODULE,
     #[cfg(feature = "ros1")]
     &modules_ros::sim_ros::MODULE,

@@ -168,7 +168,33 @@ impl Ui {
     /// Opens a window that a program draws; its handle.
     pub fn open_canvas(&mut self, title: &str, owner: i64) -> String {
         let kind = WidgetKind::Canvas(Canvas::default());
-        self.add_single(WindowSource::Program, title, kind, owner)
+        let handle = self.add_single(WindowSource::Program, title, kind, owner);
+        if let Ok(number) = self.number(&handle)
+            && let Some(window) = self.windows.get_mut(&number)
+        {
+            window.root.margins = [0; 4];
+        }
+        handle
+    }
+
+    /// Title, whether it is seen, size and whether that can be changed, of a window that a program draws.
+    ///
+    /// # Errors
+    /// When there is no such window.
+    pub fn arrange_canvas(
+        &mut self,
+        handle: &str,
+        title: &str,
+        visible: bool,
+        size: [u32; 2],
+        resizable: bool,
+    ) -> UiResult<()> {
+        self.change(handle, |window| {
+            title.clone_into(&mut window.title);
+            (window.visible, window.resizable) = (visible, resizable);
+            window.size = size.map(i64::from);
+            Ok(())
+        })
     }
 
     /// Changes the canvas of a window.
@@ -225,6 +251,8 @@ mod tests {
     #[test]
     fn pages_get_pictures() {
         let (mut ui, handle) = opened();
+        ui.arrange_canvas(&handle, "Meters", true, [30, 20], false)
+            .expect("there is a window");
         ui.change_canvas(&handle, |canvas| {
             (canvas.size, canvas.picture) = ([3, 2], vec![0, 1, 2]);
         })
@@ -233,7 +261,11 @@ mod tests {
         let canvas = &window["content"]["items"][0];
         assert_eq!(
             (window["source"].clone(), window["title"].clone()),
-            (json!("program"), json!("Dials"))
+            (json!("program"), json!("Meters"))
+        );
+        assert_eq!(
+            (&window["size"], &window["resizable"]),
+            (&json!([30, 20]), &json!(false))
         );
         assert_eq!(canvas["kind"], "canvas");
         assert_eq!(canvas["picture"], "AAEC");

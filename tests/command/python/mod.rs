@@ -1,5 +1,6 @@
 //! Scripts in Python.
 
 mod built;
+mod interfaces;
 mod interpreters;
 mod scripts;

@@ -2,7 +2,7 @@
 -- as: customization
 -- passes: 0
 -- loops: 5
--- spec: libraries 4; simQML keeps the source of an interface, sends and receives events, encodes images
+-- spec: libraries 4; without a Python simQML shows the source of an interface, sends and receives events, encodes images
 sim = require 'sim'
 local simQML, simUI = require 'simQML', require 'simUI'
 
@@ -17,6 +17,7 @@ simUI.create = function(...)
     return windows[#windows]
 end
 
+sim.setStringProperty(sim.handle_app, 'namedParam.python', '/nowhere/python3')
 print('no Qt', simQML.qtVersion())
 handle = simQML.createEngine()
 simQML.setEventHandler(handle, 'received')

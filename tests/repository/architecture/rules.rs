@@ -417,6 +417,14 @@ pub const INPUTS: &[(&str, &str)] = &[
         "whether there is a node of ROS 2",
     ),
     (
+        "crates/modules-windows/src/sim_qml/engine.rs",
+        "answers of interfaces in QML",
+    ),
+    (
+        "crates/modules-windows/src/sim_qml/engines.rs",
+        "whether there is Qt, and messages of interfaces in QML",
+    ),
+    (
         "crates/modules-ros/src/sim_ros2/services.rs",
         "whether its services are there",
     ),
