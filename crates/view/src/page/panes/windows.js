@@ -1,6 +1,7 @@
 // Windows of scripts (simUI) above the scene; what is in them makes widgets/container.js.
 import { el } from '../dom.js';
 import { Floating, titleText } from './floating.js';
+import { redraw } from './widgets/canvas.js';
 import { container } from './widgets/container.js';
 
 const MARGIN = 12;
@@ -27,6 +28,7 @@ class Frame extends Floating {
     this.element.classList.toggle('resizable', !!window.resizable);
     if (before && window.revision !== undefined && before.revision === window.revision) return;
     if (before && !!before.folded !== !!window.folded) this.setFolded(!!window.folded);
+    if (redraw(this.body, window)) return;
     const form = { id: this.id, enabled: window.enabled !== false, send: (input) => this._send(input) };
     this._replaceBody(window.content ? withoutTitle(container(window.content, form), this.name) : null);
   }

@@ -10,8 +10,8 @@ const ROW = 25; // pixels, until one is measured
 /** Keys as Qt numbers them, for handlers that want them. */
 const QT_KEYS = { Escape: 0x1000000, Tab: 0x1000001, Backspace: 0x1000003, Enter: 0x1000004, Insert: 0x1000006, Delete: 0x1000007, Home: 0x1000010, End: 0x1000011, ArrowLeft: 0x1000012, ArrowUp: 0x1000013, ArrowRight: 0x1000014, ArrowDown: 0x1000015, PageUp: 0x1000016, PageDown: 0x1000017 };
 
-const modifiers = (event) => ({ shift: event.shiftKey, control: event.ctrlKey, alt: event.altKey });
-const qtKey = (event) => QT_KEYS[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase().codePointAt(0) : 0);
+export const modifiers = (event) => ({ shift: event.shiftKey, control: event.ctrlKey, alt: event.altKey });
+export const qtKey = (event) => QT_KEYS[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase().codePointAt(0) : 0);
 
 function sendKeys(element, form) {
   element.addEventListener('keydown', (event) => form.send({ type: 'key', key: qtKey(event), text: event.key.length === 1 ? event.key : '', modifiers: modifiers(event) }));

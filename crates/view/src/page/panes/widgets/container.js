@@ -1,5 +1,6 @@
 // The elements of simUI as HTML forms, by the JSON of crates/ui: a function per kind, and containers with their layouts.
 import { el } from '../../dom.js';
+import { canvas } from './canvas.js';
 import { collections } from './collections.js';
 import { richText } from './rich_text.js';
 
@@ -211,4 +212,4 @@ function tabs(item, form) {
   return element;
 }
 
-const KINDS = { button, checkbox, radiobutton, combobox, edit, hslider: slider, vslider: slider, spinbox, label, progressbar, 'text-browser': browser, group, tabs, ...collections };
+const KINDS = { button, checkbox, radiobutton, combobox, edit, hslider: slider, vslider: slider, spinbox, label, progressbar, 'text-browser': browser, group, tabs, canvas, ...collections };
