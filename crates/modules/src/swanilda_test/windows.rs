@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::{bench, button_interfaces};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use modules_windows::sim_qml;
 use scene::Data;
 use ui::{DialogKind, Input, InputValue};
 
@@ -28,6 +29,7 @@ fn refused(reason: String) -> ApiError {
 #[api("swanilda.test.window")]
 fn window(cx: &Cx, title: String) -> Result<String> {
     bench(cx)?;
+    sim_qml::catch_up(cx);
     let found = cx.read_ui(|ui| ui.find_window(&title));
     found.or_else(|reason| button_interfaces::find(cx, &title).ok_or(refused(reason)))
 }
@@ -43,6 +45,9 @@ fn widget(cx: &Cx, handle: String, name: String) -> Result<i64> {
     if let Some(interface) = button_interfaces::handle(&handle) {
         return button_interfaces::button(&cx.scene(), interface, &name).map_err(refused);
     }
+    if sim_qml::is_interface(cx, &handle) {
+        return sim_qml::find(cx, &handle, &name).map_err(refused);
+    }
     cx.read_window(&handle, |window| Ok(window.find_widget(&name)))?
         .map_err(refused)
 }
@@ -57,6 +62,9 @@ fn widget_state(cx: &Cx, handle: String, id: i64) -> Result<Data> {
     bench(cx)?;
     if let Some(interface) = button_interfaces::handle(&handle) {
         return button_interfaces::state(&cx.scene(), interface, id).map_err(refused);
+    }
+    if sim_qml::is_interface(cx, &handle) {
+        return sim_qml::state(cx, &handle, id).map_err(refused);
     }
     cx.read_window(&handle, |window| {
         let widget = window.widget(id)?;
@@ -90,6 +98,10 @@ fn window_input(
     bench(cx)?;
     if let Some(interface) = button_interfaces::handle(&handle) {
         return button_interfaces::input(cx, interface, id, &action, &first).map_err(refused);
+    }
+    if sim_qml::is_interface(cx, &handle) {
+        let acted = sim_qml::act(cx, &handle, id, &action, [first, second]);
+        return acted.map_err(refused);
     }
     let input = input_of(&action, first, second, third)
         .ok_or_else(|| refused(format!("'{action}' does not go with these arguments.")))?;
@@ -132,6 +144,9 @@ fn close_window(cx: &mut Cx, handle: String) -> Result<()> {
     bench(cx)?;
     cx.change_ui(|ui| ui.close(&handle, false))
         .map_err(refused)?;
+    if sim_qml::is_interface(cx, &handle) {
+        sim_qml::close(cx, &handle).map_err(refused)?;
+    }
     cx.deliver_ui_events();
     Ok(())
 }
