@@ -62,14 +62,16 @@ pub fn folder() -> PathBuf {
 /// The Python of the environment with the foreign clients; None where there is no python3.
 pub fn python() -> Option<&'static PathBuf> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let python = PYTHON.get_or_init(make_environment).as_ref();
+    let make = || make_environment("interop-venv", "requirements.txt");
+    let python = PYTHON.get_or_init(make).as_ref();
     if python.is_none() {
         skipped_outside_of_ci("there is no python3 with venv");
     }
     python
 }
 
-fn make_environment() -> Option<PathBuf> {
+/// The Python of an environment with a list of packages; None where there is no python3.
+pub fn make_environment(name: &str, list: &str) -> Option<PathBuf> {
     if !Command::new("python3")
         .args(["-c", "import ensurepip, venv"])
         .status()
@@ -77,8 +79,8 @@ fn make_environment() -> Option<PathBuf> {
     {
         return None;
     }
-    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interop-venv");
-    let (python, requirements) = (dir.join("bin/python"), folder().join("requirements.txt"));
+    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let (python, requirements) = (dir.join("bin/python"), folder().join(list));
     let stamp = dir.join("installed.txt");
     let wanted = fs::read_to_string(&requirements).expect("the list of requirements is readable");
     if fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
