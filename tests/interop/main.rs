@@ -16,6 +16,7 @@ mod gltf;
 mod library;
 mod motion;
 mod package;
+mod qml;
 mod recordings;
 mod reports;
 mod ros1;

@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use swanilda::scene::Data;
 use swanilda::scene::tree::button_interfaces::{Button, ButtonInterface};
 use swanilda::{Options, Simulator};
-use test_support::skipped_outside_of_ci;
 
-use crate::server::make_environment;
 use crate::web::{check_in_browser, check_in_browser_with};
 
 #[test]
@@ -38,15 +36,6 @@ fn a_robot_is_built_in_a_browser() {
 #[test]
 fn windows_of_scripts_in_a_browser() {
     check_in_browser_with("view_windows.py", &[&old_scene("view_windows.ttt")]);
-}
-
-#[test]
-fn interfaces_in_qml_in_a_browser() {
-    // Apart from the packages of the other tests, which have to do without.
-    let Some(python) = make_environment("qml-venv", "requirements_qml.txt") else {
-        return skipped_outside_of_ci("there is no python3 with venv");
-    };
-    check_in_browser_with("view_qml.py", &[&python]);
 }
 
 #[test]

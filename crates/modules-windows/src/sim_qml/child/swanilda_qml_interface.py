@@ -80,10 +80,12 @@ class Interface:
         self.windows.look()
 
     def _answer(self, do):
-        """A question with a number, which its answer has as well."""
+        """A question with a number, which its answer has as well. Windows that have come meanwhile are told before."""
         def ask(number, *args):
             try:
-                self.link.send('answer', number, do(*args))
+                answer = do(*args)
+                self.windows.look()
+                self.link.send('answer', number, answer)
             except Refused as refused:
                 self.link.send('refused', number, str(refused))
             except Exception as error:
