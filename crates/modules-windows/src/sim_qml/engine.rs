@@ -32,6 +32,8 @@ pub(super) struct Engine {
     process: RefCell<Option<Process>>,
     /// The windows of scripts that show its windows, by the numbers of those.
     windows: RefCell<BTreeMap<i64, String>>,
+    /// Why the process is told nothing any more.
+    failure: RefCell<Option<String>>,
     events: RefCell<VecDeque<(String, Vec<u8>)>>,
     questions: Cell<i64>,
 }
@@ -50,6 +52,7 @@ impl Engine {
             ui: cx.windows(),
             process: RefCell::new(process),
             windows: RefCell::default(),
+            failure: RefCell::default(),
             events: RefCell::default(),
             questions: Cell::new(0),
         }
@@ -62,10 +65,15 @@ impl Engine {
         found.map(|(number, _)| *number)
     }
 
-    /// Tells the process something. One that has ended is noticed when it is listened to.
+    /// Tells the process something. That it has ended is said when it is listened to, and after that it is told nothing any more.
     pub(super) fn tell(&self, kind: &str, fields: &[Data]) {
-        if let Some(process) = &mut *self.process.borrow_mut() {
-            let _ = process.send(&request(kind, fields));
+        if self.failure.borrow().is_some() {
+            return;
+        }
+        if let Some(process) = &mut *self.process.borrow_mut()
+            && let Err(reason) = process.send(&request(kind, fields))
+        {
+            self.failure.replace(Some(reason));
         }
     }
 
@@ -98,6 +106,9 @@ impl Engine {
             let arrival = cx.permissions().tape().input("a message of QML", || {
                 let mut process = self.process.borrow_mut();
                 let process = process.as_mut().ok_or("The interface has ended.")?;
+                if let Some(reason) = self.failure.take() {
+                    return Err(reason);
+                }
                 if begun.elapsed() > LIMIT {
                     return Err("The interface goes on without an answer.".into());
                 }
@@ -124,9 +135,14 @@ impl Engine {
         let Some(process) = process.as_mut() else {
             return Vec::new();
         };
+        let failed = self.failure.take().map(Err);
         let next = || process.next().transpose();
         let mut arrived = Vec::new();
-        for arrival in std::iter::from_fn(next).take(AT_ONCE) {
+        for arrival in failed
+            .into_iter()
+            .chain(std::iter::from_fn(next))
+            .take(AT_ONCE)
+        {
             let is_last = arrival.is_err();
             arrived.push(arrival);
             if is_last {

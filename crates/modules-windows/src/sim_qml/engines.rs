@@ -17,9 +17,6 @@ use scene::Data;
 pub(super) struct Engines {
     last: Cell<i64>,
     running: RefCell<BTreeMap<i64, Rc<Engine>>>,
-    /// There is a process that nobody uses yet. It may be in a capture only.
-    has_spare: Cell<bool>,
-    spare: RefCell<Option<Process>>,
     version: Cell<Option<[i64; 3]>>,
 }
 
@@ -51,30 +48,27 @@ impl Engines {
         self.all().into_iter().find_map(of)
     }
 
-    /// Makes sure that there is a spare process, which a replay needs none of.
+    /// Starts a process, which a replay needs none of.
     ///
     /// # Errors
     /// Why there is none.
-    fn prepare(&self, cx: &Cx) -> Result<(), String> {
-        if self.has_spare.get() {
-            return Ok(());
-        }
+    fn start(&self, cx: &Cx) -> Result<Option<Process>, String> {
+        let mut running = None;
         let started = cx.permissions().tape().input("starting QML", || {
             let (process, version) = Process::start(cx).map_err(|error| error.to_string())?;
-            self.spare.replace(Some(process));
+            running = Some(process);
             Ok((version[0], version[1], version[2]))
         });
         let (major, minor, patch) = started.unwrap_or_else(|lost| Err(lost.to_string()))?;
         self.version.set(Some([major, minor, patch]));
-        self.has_spare.set(true);
-        Ok(())
+        Ok(running)
     }
 
     /// The version of Qt; None without one.
     pub(super) fn version(&self, cx: &Cx) -> Option<[i64; 3]> {
         if self.version.get().is_none() {
-            // Why not is said when an interface is loaded.
-            let _ = self.prepare(cx);
+            // Why not is said when an interface is loaded. A process that waits for one would be in the way of snapshots.
+            drop(self.start(cx));
         }
         self.version.get()
     }
@@ -90,9 +84,8 @@ impl Engines {
         [source, name]: [Data; 2],
         handler: ScriptCallback,
     ) -> Result<i64, NotLoaded> {
-        self.prepare(cx).map_err(NotLoaded::Lacking)?;
-        self.has_spare.set(false);
-        let engine = Engine::new(cx, handle, handler, self.spare.take());
+        let process = self.start(cx).map_err(NotLoaded::Lacking)?;
+        let engine = Engine::new(cx, handle, handler, process);
         engine.tell("load", &[source, name]);
         let loaded = engine.wait(cx, |message| match message {
             Message::Loaded => Ok(Ok(())),

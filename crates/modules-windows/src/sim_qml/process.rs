@@ -125,8 +125,12 @@ impl Process {
 
     /// Why it has ended, with its last words.
     fn ended(&mut self, error: &PeerError) -> String {
-        if !is_closed(error) {
-            return format!("The interface has ended: {error}.");
+        match error {
+            PeerError::Io(error) if error.kind() == ErrorKind::WouldBlock => {
+                return "The interface reads nothing any more: it is ended.".into();
+            }
+            error if !is_closed(error) => return format!("The interface has ended: {error}."),
+            _ => {}
         }
         let status = self.peer.wait_for_end(Duration::from_secs(1));
         let words = String::from_utf8_lossy(&self.peer.last_output())
