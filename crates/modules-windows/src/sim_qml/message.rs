@@ -263,6 +263,54 @@ mod tests {
         }
     }
 
+    /// A message of each kind that has bounds of its own.
+    fn some() -> Vec<Vec<u8>> {
+        let picture = [1, 4, 3].map(Data::Int);
+        let picture = [&picture[..], &[Data::Buffer(PNG.to_vec())]].concat();
+        let window = [
+            Data::Int(1),
+            text("Dials"),
+            Data::Bool(true),
+            Data::Int(4),
+            Data::Int(3),
+            Data::Bool(false),
+        ];
+        let answer = [Data::Int(1), Data::Array(vec![Data::Float(1.5), Data::Nil])];
+        vec![
+            request("picture", &picture),
+            request("window", &window),
+            request("answer", &answer),
+        ]
+    }
+
+    #[test]
+    fn changed_and_cut_messages_keep_to_their_bounds() {
+        let (mut read, mut refused) = (0, 0);
+        for message in some() {
+            assert!(Message::decode(&message).is_ok());
+            for place in 0..message.len() {
+                assert!(
+                    Message::decode(&message[..place]).is_err(),
+                    "cut at {place}"
+                );
+                for byte in [0, 1, b'i', b'l', 0x7f, 0x80, 0xff] {
+                    let mut changed = message.clone();
+                    changed[place] = byte;
+                    match Message::decode(&changed) {
+                        Ok(Message::Picture { size, .. } | Message::Window { size, .. }) => {
+                            let in_bounds = |side: &u32| (1..=8192).contains(side);
+                            assert!(size.iter().all(in_bounds), "{byte} at {place}");
+                            read += 1;
+                        }
+                        Ok(_) => read += 1,
+                        Err(_) => refused += 1,
+                    }
+                }
+            }
+        }
+        assert!(read > 100 && refused > 100, "{read} {refused}");
+    }
+
     #[test]
     fn what_is_no_message_is_refused() {
         for bytes in [

@@ -109,6 +109,8 @@ class Interface:
         for problem in problems:
             self.link.send('said', 'warning', problem)
         self.windows.look()
+        if not self.windows.known:
+            self.link.send('said', 'info', "no window is seen yet: a Window needs 'visible: true'")
         self.link.send('loaded')
 
     def _frame(self, item):
