@@ -74,6 +74,7 @@ pub(super) fn render(args: &Args) -> Outcome {
         &progress,
         None,
         &Tape::default(),
+        None,
     )?;
     launch.fill(args.kind.into());
     let Launch {

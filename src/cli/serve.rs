@@ -37,6 +37,7 @@ pub(super) struct Args {
 pub(super) fn serve(args: &Args) -> Outcome {
     let tape = args.capture.tape()?;
     let progress = Progress::new(RunLimits::default(), true);
+    let pages = args.view.debugging(&tape);
     let mut launch = Launch::new(
         &args.setup,
         Some(&args.remote),
@@ -44,6 +45,7 @@ pub(super) fn serve(args: &Args) -> Outcome {
         &progress,
         None,
         &tape,
+        pages.as_ref(),
     )?;
     args.fill(&mut launch, &tape)?;
     let Launch {
@@ -53,7 +55,9 @@ pub(super) fn serve(args: &Args) -> Outcome {
         watchdog,
         ..
     } = launch;
-    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
+    let viewer = args
+        .view
+        .start(&sim, pages.as_ref(), &args.remote, &output, &watchdog)?;
     let code = Live::new(viewer).run(&mut sim, &interrupt);
     drop(sim);
     finish(&tape);

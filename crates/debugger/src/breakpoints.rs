@@ -190,13 +190,15 @@ impl Breakpoints {
     }
 
     /// Places breakpoints in a text that was loaded; what changed, for the client.
-    pub fn place(&mut self, key: &SourceKey, text: &LoadedText) -> Vec<Value> {
+    pub fn place(&mut self, text: &LoadedText) -> Vec<Value> {
         let mut changed = Vec::new();
-        for of_line in self.of_lines.get_mut(key).into_iter().flatten() {
-            let line = next(&text.lines, of_line.requested);
-            if of_line.line != line || line.is_none() {
-                of_line.line = line;
-                changed.push(of_line.describe(true));
+        for key in SourceKey::all_of(text) {
+            for of_line in self.of_lines.get_mut(&key).into_iter().flatten() {
+                let line = next(&text.lines, of_line.requested);
+                if of_line.line != line || line.is_none() {
+                    of_line.line = line;
+                    changed.push(of_line.describe(true));
+                }
             }
         }
         for of_function in &mut self.of_functions {
@@ -210,26 +212,23 @@ impl Breakpoints {
 
     /// The lines of a text that have breakpoints.
     pub fn lines(&self, text: &LoadedText) -> BTreeSet<u32> {
-        let of_lines = self
-            .of_lines
-            .get(&SourceKey::of(text))
-            .into_iter()
-            .flatten();
         let functions = self.of_functions.iter();
-        of_lines
+        self.lines_of(text)
             .filter_map(|of_line| of_line.line)
             .chain(functions.flat_map(|function| lines_of_function(text, &function.name)))
             .collect()
     }
 
+    fn lines_of(&self, text: &LoadedText) -> impl Iterator<Item = &OfLine> {
+        SourceKey::all_of(text)
+            .filter_map(|key| self.of_lines.get(&key))
+            .flatten()
+    }
+
     /// The numbers of the breakpoints of a line, and whether each is one of a function.
     pub fn at(&self, text: &LoadedText, line: u32) -> Vec<(u64, bool)> {
         let of_lines = self
-            .of_lines
-            .get(&SourceKey::of(text))
-            .into_iter()
-            .flatten();
-        let of_lines = of_lines
+            .lines_of(text)
             .filter(|of_line| of_line.line == Some(line))
             .map(|of_line| (of_line.breakpoint.id, false));
         let functions = self.of_functions.iter();

@@ -1,4 +1,4 @@
-//! A debugger of running simulations: an adapter for clients that speak the Debug Adapter Protocol.
+//! A debugger of running simulations: an adapter for clients that speak the Debug Adapter Protocol, over a connection or in this process.
 //!
 //! Lua scripts stop at traps in their bytecode (`script::Debugger`); this crate decides where, and answers the client. While code
 //! stands still, so do all scripts, the physics, the simulation time and the clients of the simulator, since one thread owns them all.
@@ -8,6 +8,7 @@
 )]
 
 mod breakpoints;
+mod client;
 mod data;
 mod framing;
 mod link;
@@ -19,6 +20,7 @@ mod sources;
 mod stepping;
 mod watch;
 
-pub use link::{Incoming, Link, Wake};
+pub use client::{Client, Incoming};
+pub use link::{Link, Wake};
 pub use session::{Ending, Launch, Position, Session, Travel};
 pub use watch::{Cause, Watch};

@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
+use crate::client::{Client, Incoming};
 use crate::framing::{Framing, framed};
 
 /// Messages that wait for a slow client; then the simulation waits.
@@ -23,17 +24,6 @@ const END_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Lets the simulation look at requests in the middle of code that runs.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
-
-/// What comes from a client.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Incoming {
-    /// A client has come: what was known of the last one does not count.
-    Connected,
-    /// A message.
-    Message(Value),
-    /// The client is gone; a text says why it was sent away.
-    Gone(Option<String>),
-}
 
 /// The end of the connection that the simulator's thread has.
 pub struct Link {
@@ -119,21 +109,21 @@ impl Link {
         Ok((link, reader))
     }
 
-    /// From now on code that goes on for long after the client wants the end is asked again and again.
-    pub(crate) fn force_end_on_request(&self) {
-        self.forces_end.store(true, Ordering::Release);
+    fn noted(&self, incoming: Incoming) -> Incoming {
+        self.unread.fetch_sub(1, Ordering::AcqRel);
+        incoming
     }
+}
 
-    /// What has come, if anything has.
-    pub fn try_receive(&self) -> Option<Incoming> {
+impl Client for Link {
+    fn try_receive(&self) -> Option<Incoming> {
         match self.incoming.try_recv() {
             Ok(incoming) => Some(self.noted(incoming)),
             Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
         }
     }
 
-    /// The same after a wait; None when the time is over.
-    pub fn receive(&self, timeout: Duration) -> Option<Incoming> {
+    fn receive(&self, timeout: Duration) -> Option<Incoming> {
         match self.incoming.recv_timeout(timeout) {
             Ok(incoming) => Some(self.noted(incoming)),
             Err(RecvTimeoutError::Timeout) => None,
@@ -141,18 +131,15 @@ impl Link {
         }
     }
 
-    fn noted(&self, incoming: Incoming) -> Incoming {
-        self.unread.fetch_sub(1, Ordering::AcqRel);
-        incoming
-    }
-
-    /// Sends a message to the client, if there is one.
-    pub fn send(&self, message: &Value) {
+    fn send(&self, message: &Value) {
         let _ = self.outgoing.send(Outgoing::Bytes(framed(message)));
     }
 
-    /// Waits until everything is written, but no longer than that.
-    pub fn finish(&self, timeout: Duration) {
+    fn force_end_on_request(&self) {
+        self.forces_end.store(true, Ordering::Release);
+    }
+
+    fn finish(&self, timeout: Duration) {
         let _ = self.outgoing.send(Outgoing::End);
         let _ = self.finished.recv_timeout(timeout);
     }

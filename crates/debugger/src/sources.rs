@@ -1,6 +1,6 @@
 //! The texts of scripts, as clients know them: files by their path, other texts by a number.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -14,6 +14,8 @@ pub enum SourceKey {
     File(PathBuf),
     /// A text of the scene, by its title; one that was loaded as a string, by itself.
     Text(String),
+    /// The text that a script has, whatever that is: for clients who know scripts by their handles.
+    Script(i64),
 }
 
 impl SourceKey {
@@ -26,6 +28,13 @@ impl SourceKey {
             }
             None => Self::Text(text.title.clone()),
         }
+    }
+
+    /// All that mean a text.
+    pub fn all_of(text: &LoadedText) -> impl Iterator<Item = Self> {
+        [Some(Self::of(text)), text.script.map(Self::Script)]
+            .into_iter()
+            .flatten()
     }
 
     fn of_file(file: &Path) -> Self {
@@ -46,12 +55,17 @@ struct Entry {
 #[derive(Default)]
 pub struct Sources {
     entries: Vec<Entry>,
+    /// The lines with code of the texts that scripts have.
+    of_scripts: BTreeMap<i64, BTreeSet<u32>>,
 }
 
 impl Sources {
     /// Notes a text; whether it is new.
     pub fn add(&mut self, text: &Rc<LoadedText>) -> bool {
         let key = SourceKey::of(text);
+        if let Some(script) = text.script {
+            self.of_scripts.insert(script, text.lines.clone());
+        }
         let known = self.entries.iter_mut().find(|entry| entry.key == key);
         let is_new = known.is_none();
         match known {
@@ -96,11 +110,20 @@ impl Sources {
         Some(String::from_utf8_lossy(&entry.text.text).into_owned())
     }
 
-    /// What a client means by a `Source`.
+    /// The text with a key, if it was loaded.
+    pub fn text(&self, key: &SourceKey) -> Option<String> {
+        let entry = self.entries.iter().find(|entry| entry.key == *key)?;
+        Some(String::from_utf8_lossy(&entry.text.text).into_owned())
+    }
+
+    /// What a client means by a `Source`; in place of what the protocol has it may name a `script`.
     ///
     /// # Errors
     /// When there is no such text.
     pub fn key(&self, source: &Value) -> Result<SourceKey, String> {
+        if let Some(script) = source["script"].as_i64() {
+            return Ok(SourceKey::Script(script));
+        }
         let reference = source["sourceReference"].as_u64().unwrap_or_default();
         if reference > 0 {
             let place = usize::try_from(reference).unwrap_or_default() - 1;
@@ -123,6 +146,9 @@ impl Sources {
 
     /// The lines with code of a text that was loaded, or of a file that is there; None where there is neither.
     pub fn lines(&self, key: &SourceKey) -> Option<BTreeSet<u32>> {
+        if let SourceKey::Script(script) = key {
+            return self.of_scripts.get(script).cloned();
+        }
         if let Some(entry) = self.entries.iter().find(|entry| entry.key == *key) {
             return Some(entry.text.lines.clone());
         }

@@ -25,6 +25,11 @@ impl BusySign {
         self.shared.stop_is_requested()
     }
 
+    /// Whether a page has a request to the debugger, for which code that runs has to be asked.
+    pub fn wants_attention(&self) -> bool {
+        self.shared.has_debug_requests()
+    }
+
     /// Whether the thread waits for a person who answers a dialog.
     pub fn is_asking(&self) -> bool {
         self.shared.is_asking()

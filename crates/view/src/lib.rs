@@ -6,10 +6,11 @@
 //! Pages are readers on the thread of a server; a recorder is one on the simulation's own.
 //!
 //! Requests of pages are checked on the server's thread ([`request`]) and carried out by the simulation's between two iterations ([`Viewer`]).
-//! Those that change the scene are in [`edit`], with undo and redo.
+//! Those that change the scene are in [`edit`], with undo and redo; those about code that stands still are answered by [`debugging`].
 
 pub(crate) mod blobs;
 mod busy;
+mod debugging;
 mod edit;
 mod hash;
 mod images;
@@ -25,6 +26,7 @@ mod server;
 mod viewer;
 
 pub use busy::BusySign;
+pub use debugging::Debugging;
 pub use server::page_file;
 pub use viewer::CaptureViewer;
 pub use viewer::RecordedViewer;

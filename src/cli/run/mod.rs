@@ -115,6 +115,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         args.limits(),
         args.setup.quiet || args.setup.json || args.no_start,
     );
+    let pages = args.view.debugging(&tape);
     let mut launch = Launch::new(
         &args.setup,
         Some(&args.remote),
@@ -122,6 +123,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         &progress,
         plugin_note,
         &tape,
+        pages.as_ref(),
     )?;
     let begun = Instant::now();
     let is_robot = args.fill_and_classify(&mut launch, &tape)?;
@@ -154,7 +156,9 @@ pub(super) fn run(args: &Args) -> Outcome {
         args.video.start(&mut sim, &args.scene);
         args.record.start(&sim)?
     };
-    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
+    let viewer = args
+        .view
+        .start(&sim, pages.as_ref(), &args.remote, &output, &watchdog)?;
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
     let recorded = args.record.finish(&sim, recorder);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use debugger::{Link, Session, Wake};
 use io::signals::{InterruptibleThread, reserve_standard_output};
 use script::{ask_running_code, interrupt_running_code};
+use view::Debugging;
 
 /// The option about debuggers.
 #[derive(clap::Args)]
@@ -27,13 +28,20 @@ impl DebugArgs {
         }
     }
 
-    /// A session that waits for clients while the simulation runs; None where none is asked for. Scripts run on this thread.
+    /// A session that waits for clients while the simulation runs: at a port, or those of `pages`; None where none is asked for. Scripts run on
+    /// this thread.
     ///
     /// # Errors
     /// When the port is not free.
-    pub(in crate::cli) fn session(&self) -> Result<Option<Rc<Session>>, String> {
+    pub(in crate::cli) fn session(
+        &self,
+        pages: Option<&Debugging>,
+    ) -> Result<Option<Rc<Session>>, String> {
         let link = self.debug.map(listen).transpose()?;
-        Ok(link.map(|link| Session::new(link, true)))
+        Ok(match pages {
+            Some(pages) => pages.session(link),
+            None => link.map(|link| Session::new(link, true)),
+        })
     }
 }
 

@@ -10,6 +10,7 @@ use super::watchdog::Watchdog;
 use crate::cli::remote::Remote;
 use capture::Tape;
 use simulator::{Builder, Options, RunLimits, ScriptKind, Simulator};
+use view::Debugging;
 
 /// A simulator of the command line, and what reports about it.
 pub(in crate::cli) struct Launch<'a> {
@@ -32,7 +33,7 @@ struct Around {
 
 impl<'a> Launch<'a> {
     /// Reads the files, and makes a simulator without a scene. Without `remote`, nothing listens, and scripts may do everything. `plugin_note`: see
-    /// [`Options::plugin_note`]. Everything comes from outside by the tape.
+    /// [`Options::plugin_note`]. Everything comes from outside by the tape. `pages`: those of a viewer, which debug scripts.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -43,6 +44,7 @@ impl<'a> Launch<'a> {
         progress: &Progress,
         plugin_note: Option<PathBuf>,
         tape: &Tape,
+        pages: Option<&Debugging>,
     ) -> Result<Self, String> {
         let interrupt = Interrupt::of_scripts_here();
         let around = Around {
@@ -51,7 +53,7 @@ impl<'a> Launch<'a> {
             interrupt,
             plugin_note,
         };
-        let session = setup.debug.session()?;
+        let session = setup.debug.session(pages)?;
         let console = Box::new(around.output.clone());
         Self::made(setup, remote, scene, tape, around, |builder| {
             let builder = builder.console(console);

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use super::super::complain;
 use io::signals::InterruptibleThread;
 use script::{
-    calls_begun, is_call, only_ask, place_is_exact, place_of_interruption, running_callback,
+    ask_running_code, calls_begun, is_call, only_ask, place_is_exact, place_of_interruption,
+    running_callback,
 };
 use view::BusySign;
 
@@ -58,6 +59,10 @@ impl Watchdog {
             let waits_for_person = sign.as_ref().is_some_and(BusySign::is_asking);
             if calls_begun() != call.number || waits_for_person {
                 call = Call::now();
+            } else if is_call(call.number) && sign.as_ref().is_some_and(BusySign::wants_attention) {
+                // Code that goes on for long lets the debugger answer in its midst.
+                ask_running_code();
+                scripts.wake();
             }
             call.check(scripts, sign.as_ref(), self.is_told);
         }

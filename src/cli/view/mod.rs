@@ -21,7 +21,7 @@ use super::setup::Setup;
 use super::watchdog::Watchdog;
 use capture::Tape;
 use simulator::{Builder, RunLimits, Simulator};
-use view::{RecordedViewer, Viewer};
+use view::{Debugging, RecordedViewer, Viewer};
 
 /// Interval between checks for ctrl-c while a recording is shown.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
@@ -80,6 +80,12 @@ pub(super) enum Mode {
     ReadOnly,
 }
 
+impl Mode {
+    fn debugging(self, tape: &Tape) -> Debugging {
+        Debugging::new(self == Self::ReadOnly, tape.is_on())
+    }
+}
+
 impl ViewArgs {
     /// Starts the viewer, if it is asked for.
     ///
@@ -88,14 +94,21 @@ impl ViewArgs {
     pub(super) fn start(
         &self,
         sim: &Simulator,
+        pages: Option<&Debugging>,
         remote: &Remote,
         output: &Output,
         watchdog: &Watchdog,
     ) -> Result<Option<Viewer>, String> {
-        match self.view {
-            Some(mode) => start(sim, mode, self.port, remote, output, watchdog),
+        match pages {
+            Some(pages) => start(sim, pages, self.port, remote, output, watchdog),
             None => Ok(None),
         }
+    }
+
+    /// What pages debug with, if there are to be any.
+    pub(super) fn debugging(&self, tape: &Tape) -> Option<Debugging> {
+        let mode = self.view?;
+        (!tape.is_replaying()).then(|| mode.debugging(tape))
     }
 
     /// Whether it is asked for.
@@ -107,7 +120,7 @@ impl ViewArgs {
 /// Starts a viewer and prints its address. A replay has none.
 fn start(
     sim: &Simulator,
-    mode: Mode,
+    pages: &Debugging,
     port: u16,
     remote: &Remote,
     output: &Output,
@@ -118,7 +131,7 @@ fn start(
     }
     let failed = |error: std::io::Error| format!("the viewer cannot start at port {port}: {error}");
     let listener = TcpListener::bind((remote.address(), port)).map_err(failed)?;
-    let viewer = Viewer::start(sim, listener, mode == Mode::ReadOnly).map_err(failed)?;
+    let viewer = Viewer::start_with(sim, listener, pages).map_err(failed)?;
     watchdog.show_on(viewer.busy_sign());
     output.viewing(&viewer.url());
     Ok(Some(viewer))
@@ -135,6 +148,7 @@ pub(super) fn view(args: &Args) -> Outcome {
     }
     let progress = Progress::new(RunLimits::default(), true);
     let tape = args.capture.tape()?;
+    let pages = args.view.debugging(&tape);
     let mut launch = Launch::new(
         &args.setup,
         Some(&args.remote),
@@ -142,11 +156,12 @@ pub(super) fn view(args: &Args) -> Outcome {
         &progress,
         None,
         &tape,
+        Some(&pages),
     )?;
     // Before the scripts, so that pages have their first lines as well.
     let viewer = start(
         &launch.sim,
-        args.view,
+        &pages,
         args.port,
         &args.remote,
         &launch.output,

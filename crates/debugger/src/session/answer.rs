@@ -147,11 +147,16 @@ impl Session {
     }
 
     fn source(&self, request: &Request) -> Result<Value, Refusal> {
+        let sources = self.sources.borrow();
+        let by_path = request.get("source")["path"].is_string();
+        if by_path && let Some(text) = sources.text(&sources.key(request.get("source"))?) {
+            return Ok(json!({"content": text, "mimeType": "text/x-lua"}));
+        }
         let reference = match request.get("source")["sourceReference"].as_i64() {
             Some(reference) => reference,
             None => request.number("sourceReference")?,
         };
-        let text = self.sources.borrow().content(reference);
+        let text = sources.content(reference);
         let text = text.ok_or_else(|| format!("there is no text with the number {reference}"))?;
         Ok(json!({"content": text, "mimeType": "text/x-lua"}))
     }

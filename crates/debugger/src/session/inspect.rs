@@ -64,6 +64,9 @@ impl Session {
                 Some(text) => described["source"] = self.sources.borrow().describe(text),
                 None => described["presentationHint"] = json!("subtle"),
             }
+            if let Some(script) = frame.text.as_ref().and_then(|text| text.script) {
+                described["script"] = json!(script);
+            }
             shown.push(described);
         }
         Ok(json!({"stackFrames": shown, "totalFrames": all.len()}))

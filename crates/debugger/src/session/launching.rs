@@ -101,7 +101,7 @@ impl Session {
             if is_over() || self.ending().is_some() {
                 return None;
             }
-            if let Some(incoming) = self.link.receive(POLL) {
+            if let Some(incoming) = self.client.receive(POLL) {
                 let flow: Flow = self.receive(None, incoming);
                 debug_assert!(flow == Flow::Stay || self.ending().is_some());
             }

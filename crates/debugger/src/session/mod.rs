@@ -20,8 +20,8 @@ use script::{Armed, Debuggee, Debugger, LoadedText, Place, Script, Sim};
 use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
+use crate::client::{Client, Incoming};
 use crate::data::DataBreakpoints;
-use crate::link::{Incoming, Link};
 use crate::references::References;
 use crate::request::{Request, event};
 use crate::sources::{SourceKey, Sources};
@@ -61,7 +61,7 @@ pub enum Ending {
 
 /// A session with a client.
 pub struct Session {
-    link: Link,
+    client: Box<dyn Client>,
     /// Whether the run goes on without a client.
     is_attached: bool,
     seq: Cell<i64>,
@@ -113,13 +113,13 @@ enum Flow {
 }
 
 impl Session {
-    /// A session with the client of a connection. `is_attached`: the simulation does not wait for it, and goes on without it.
-    pub fn new(link: Link, is_attached: bool) -> Rc<Self> {
+    /// A session with a client. `is_attached`: the simulation does not wait for it, and goes on without it.
+    pub fn new(client: impl Client + 'static, is_attached: bool) -> Rc<Self> {
         if !is_attached {
-            link.force_end_on_request();
+            client.force_end_on_request();
         }
         Rc::new(Self {
-            link,
+            client: Box::new(client),
             is_attached,
             seq: Cell::new(0),
             mode: Cell::default(),
@@ -183,12 +183,12 @@ impl Session {
                 break;
             }
         }
-        self.link.finish(FLUSH_TIMEOUT);
+        self.client.finish(FLUSH_TIMEOUT);
     }
 
     /// Answers what comes after the end; whether the client is done.
     fn receives_disconnect(&self) -> bool {
-        match self.link.receive(POLL) {
+        match self.client.receive(POLL) {
             Some(Incoming::Gone(_)) => true,
             Some(Incoming::Message(message)) => {
                 let Some(request) = Request::parse(&message) else {
@@ -224,7 +224,7 @@ impl Session {
         let seq = self.seq.get() + 1;
         self.seq.set(seq);
         message["seq"] = json!(seq);
-        self.link.send(&message);
+        self.client.send(&message);
     }
 
     /// Answers what has come; whether the code goes on.
@@ -333,7 +333,7 @@ impl Session {
         let text = &Rc::new(text.clone());
         let key = SourceKey::of(text);
         let is_new = self.sources.borrow_mut().add(text);
-        let changed = self.breakpoints.borrow_mut().place(&key, text);
+        let changed = self.breakpoints.borrow_mut().place(text);
         self.texts
             .borrow_mut()
             .retain(|known| SourceKey::of(known) != key);
@@ -398,7 +398,7 @@ impl Debugger for Session {
             self.position.set(Position { turn, events: 0 });
         }
         while self.goal.borrow().is_live()
-            && let Some(incoming) = self.link.try_receive()
+            && let Some(incoming) = self.client.try_receive()
         {
             self.receive(Some(sim), incoming);
         }
@@ -415,7 +415,7 @@ impl Session {
     /// An expression of the client takes long. It ends when the client does not want to wait for it.
     fn poll_while_stopped(&self) -> bool {
         let mut postponed = self.postponed.borrow_mut();
-        while let Some(incoming) = self.link.try_receive() {
+        while let Some(incoming) = self.client.try_receive() {
             postponed.push_back(incoming);
         }
         postponed.iter().any(|incoming| match incoming {
@@ -429,9 +429,9 @@ impl Session {
     }
 
     /// The next message, after those that came while an expression was evaluated.
-    fn next_incoming(&self) -> Option<Incoming> {
+    fn next_incoming(&self, sim: &Rc<Sim>) -> Option<Incoming> {
         let postponed = self.postponed.borrow_mut().pop_front();
-        postponed.or_else(|| self.link.receive(POLL))
+        postponed.or_else(|| self.client.receive_while_stopped(sim, POLL))
     }
 }
 

@@ -11,6 +11,9 @@ use crate::breakpoints::Rule;
 use crate::request::event;
 use crate::stepping::{Mode, Origin};
 
+/// Functions among which the one is looked for that people know.
+const FRAMES: usize = 50;
+
 /// What everything stands still for.
 #[derive(Debug, Clone)]
 pub(super) struct Stop {
@@ -245,6 +248,8 @@ impl Session {
         let thread = stop.script.unwrap_or_else(|| self.default_thread(sim));
         self.stop.replace(Some(stop));
         self.send(stopped_event(thread, reason));
+        self.client
+            .note_stop(Some(&self.describe_stop(sim, reason)));
         if self.is_replay.get() {
             // What the client inspects and changes is no part of the run.
             sim.without_trace(|| self.answer_until_it_goes_on(sim));
@@ -253,6 +258,7 @@ impl Session {
             self.forget_values(sim);
             sim.clock.leave_out(begun.elapsed().as_secs_f64());
         }
+        self.client.note_stop(None);
         self.stop.replace(None);
         self.references.borrow_mut().clear();
         self.remember(sim);
@@ -263,9 +269,28 @@ impl Session {
         }
     }
 
+    /// Where everything stands still, for whoever is no debugger: the innermost text.
+    fn describe_stop(&self, sim: &Rc<Sim>, reason: &Reason) -> Value {
+        let script = self.stop.borrow().as_ref().and_then(|stop| stop.script);
+        let innermost = script.and_then(|script| {
+            let frames = inspect::asked(sim, script, |debuggee| Ok(debuggee.frames(FRAMES)));
+            let with_text = |frame: script::Frame| Some((frame.text?, frame.line));
+            frames.ok()?.into_iter().find_map(with_text)
+        });
+        let text = innermost.as_ref().map(|(text, _)| text);
+        json!({
+            "handle": text.and_then(|text| text.script).or(script),
+            "title": text.map(|text| &text.title),
+            "isOwn": text.is_some_and(|text| text.script.is_some()),
+            "line": innermost.as_ref().map(|(_, line)| line),
+            "reason": reason.word,
+            "text": reason.description,
+        })
+    }
+
     fn answer_until_it_goes_on(&self, sim: &Rc<Sim>) {
         while !sim.options.is_interrupted() {
-            let Some(incoming) = self.next_incoming() else {
+            let Some(incoming) = self.next_incoming(sim) else {
                 continue;
             };
             if self.receive(Some(sim), incoming) == Flow::GoOn {

@@ -45,6 +45,8 @@ pub struct LoadedText {
     pub file: Option<PathBuf>,
     /// What people call it: the file, or the path of the script.
     pub title: String,
+    /// The script whose own text it is; None for what scripts load.
+    pub script: Option<i64>,
     /// The lines with code.
     pub lines: BTreeSet<u32>,
     /// The functions of the text.

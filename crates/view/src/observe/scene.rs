@@ -24,6 +24,8 @@ pub(crate) struct Source<'a> {
     pub played: Option<Played>,
     /// What can be undone: members of the scene; null where nothing can.
     pub edits: Value,
+    /// Whether pages debug scripts.
+    pub has_debugger: bool,
 }
 
 /// The moment of a capture that is shown.
@@ -48,6 +50,7 @@ impl<'a> Source<'a> {
             mode: "live",
             played: None,
             edits: Value::Null,
+            has_debugger: false,
         }
     }
 
@@ -87,6 +90,9 @@ impl<'a> Source<'a> {
             "readOnly": self.is_read_only,
             "errors": self.now.errors,
         });
+        if self.has_debugger {
+            scene["debugger"] = true.into();
+        }
         if let Some(hash) = self.now.state_hash {
             scene["hash"] = format!("{hash:016x}").into();
         }

@@ -52,6 +52,7 @@ impl Stage {
             mode: "live",
             played: None,
             edits: Value::Null,
+            has_debugger: false,
         };
         self.observer.observe(&source, lines)
     }

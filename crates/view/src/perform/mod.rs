@@ -3,7 +3,7 @@
 mod button_interfaces;
 mod graph;
 mod inspector;
-mod scripts;
+pub(crate) mod scripts;
 mod values;
 
 use serde_json::{Value, json};
@@ -99,6 +99,7 @@ pub(crate) fn perform(
             input,
         } => use_window(sim, window, widget, input)?,
         Action::Answer { .. } => return Err("no dialog waits for an answer".into()),
+        Action::Debug(_) => return Err("pages have no debugger here".into()),
         Action::Run(code) => {
             return editor.record(sim, action, |_, sim| {
                 let text = run(sim, code, lines)?;

@@ -9,13 +9,18 @@ use simulator::{SimulationState, Simulator, property_setter};
 
 /// The text of a script, with a name of the text.
 pub(super) fn read(sim: &Simulator, handle: i64) -> Result<Value, String> {
-    let (name, language, text) = sim.script_text(handle).map_err(|error| error.to_string())?;
-    Ok(json!({
+    let found = sim.script_text(handle).map_err(|error| error.to_string())?;
+    Ok(described(found))
+}
+
+/// Name, language and text of a script, with a name of the text.
+pub(crate) fn described((name, language, text): (String, String, Vec<u8>)) -> Value {
+    json!({
         "name": name,
         "language": language,
         "text": String::from_utf8_lossy(&text),
         "version": version_of(&text),
-    }))
+    })
 }
 
 /// The reply to a page that would overwrite what it has not seen: the text, if it is not the one of `version` any more.

@@ -117,6 +117,7 @@ fn source<'a>(present: &Present<'a>) -> Source<'a> {
         mode: RECORDING,
         played: None,
         edits: Value::Null,
+        has_debugger: false,
     }
 }
 

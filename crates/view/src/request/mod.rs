@@ -1,5 +1,6 @@
 //! Requests of pages, from any bytes: each is checked before the simulation's thread sees it.
 
+mod debugging;
 #[cfg(test)]
 mod tests;
 
@@ -12,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::edit::Files;
 use crate::sample::Following;
+pub(crate) use debugging::{Breakpoint, Debug};
 
 /// Code and texts of a page, bytes.
 const MAX_TEXT_LENGTH: usize = 100_000;
@@ -102,6 +104,8 @@ pub(crate) enum Action {
     },
     /// What is different from the scene that was loaded.
     Changes,
+    /// Of the debugger, which has requests of its own.
+    Debug(Debug),
     /// To the dialog with that number; null: cancelled.
     Answer {
         question: u64,
@@ -210,6 +214,7 @@ impl Action {
                 may_overwrite,
             } => json!({ "do": "save", "path": path, "model": model, "overwrite": may_overwrite }),
             Self::Changes => json!({ "do": "changes" }),
+            Self::Debug(request) => request.to_json(),
             Self::Answer { question, answer } => {
                 json!({ "do": "answer", "question": question, "answer": answer })
             }
@@ -350,6 +355,8 @@ fn action(members: &Members) -> Result<Action, String> {
             may_overwrite: members.get("overwrite").and_then(Value::as_bool) == Some(true),
         },
         "changes" => Action::Changes,
+        "breakpoints" => Action::Debug(Debug::set(members)?),
+        "debug" => Action::Debug(Debug::command(members)?),
         "answer" => {
             let question = members
                 .get("question")

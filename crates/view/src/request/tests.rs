@@ -72,6 +72,12 @@ fn what_is_none_is_refused_with_a_reason() {
         r#"{"id":1,"do":"upload","name":"a","data":"*"}"#,
         r#"{"id":1,"do":"load"}"#,
         r#"{"id":1,"do":"save"}"#,
+        r#"{"id":1,"do":"breakpoints","handle":7}"#,
+        r#"{"id":1,"do":"breakpoints","handle":7,"breakpoints":[3]}"#,
+        r#"{"id":1,"do":"breakpoints","handle":7,"breakpoints":[{"line":0}]}"#,
+        r#"{"id":1,"do":"breakpoints","breakpoints":[]}"#,
+        r#"{"id":1,"do":"debug"}"#,
+        r#"{"id":1,"do":"debug","command":"disconnect"}"#,
     ] {
         assert!(
             parse(text).is_err_and(|reason| !reason.is_empty()),
@@ -118,6 +124,8 @@ fn requests_come_back_from_a_capture() {
         r#"{"id":1,"do":"save","path":"a.ttt","model":null,"overwrite":true}"#,
         r#"{"id":1,"do":"save","path":"a.ttm","model":7,"overwrite":false}"#,
         r#"{"id":1,"do":"changes"}"#,
+        r#"{"id":1,"do":"breakpoints","handle":7,"breakpoints":[{"line":3,"condition":"x > 1"},{"line":5}]}"#,
+        r#"{"id":1,"do":"debug","command":"stackTrace","arguments":{"threadId":7}}"#,
     ] {
         let (action, mut bytes) = (parse(text).unwrap(), Vec::new());
         action.write(&mut bytes);

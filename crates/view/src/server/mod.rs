@@ -8,7 +8,7 @@ mod visitor;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -17,6 +17,7 @@ use super::mirror::Mirror;
 use super::request::Action;
 use super::sample::{Followed, Samples};
 pub use assets::page_file;
+use io::SiteWaker;
 pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
 
@@ -35,6 +36,8 @@ pub(crate) struct Shared {
     requests: Mutex<VecDeque<Pending>>,
     arrived: Condvar,
     is_read_only: bool,
+    /// Whether pages debug scripts.
+    has_debugger: AtomicBool,
     /// What is shown is a capture.
     is_capture: AtomicBool,
     /// How many dialogs were shown.
@@ -44,6 +47,8 @@ pub(crate) struct Shared {
     /// A page has asked for a stop that is not carried out yet.
     stop_requested: AtomicBool,
     busy: Mutex<Busy>,
+    /// Pages are told of what is new by it.
+    waker: OnceLock<SiteWaker>,
     /// Why the simulator ends, once it does.
     end: Mutex<Option<String>>,
 }
@@ -171,18 +176,64 @@ impl Shared {
         lock(&self.samples)
     }
 
-    /// The next request; waits for one up to a time limit.
+    /// The next request, but for those of the debugger, who takes them himself; waits for one up to a time limit.
     pub(crate) fn next_request(&self, timeout: Duration) -> Option<Pending> {
+        self.next_of(timeout, |action| !matches!(action, Action::Debug(_)))
+    }
+
+    /// The next request that is `wanted`; waits for one up to a time limit, and no longer than until any arrives.
+    pub(crate) fn next_of(
+        &self,
+        timeout: Duration,
+        wanted: impl Fn(&Action) -> bool,
+    ) -> Option<Pending> {
         let mut requests = lock(&self.requests);
-        if requests.is_empty() && !timeout.is_zero() {
+        let place = |requests: &VecDeque<Pending>| {
+            let mut actions = requests.iter().map(|pending| &pending.action);
+            actions.position(&wanted)
+        };
+        if place(&requests).is_none() && !timeout.is_zero() {
             let waited = self.arrived.wait_timeout(requests, timeout);
             requests = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
-        requests.pop_front()
+        place(&requests).and_then(|place| requests.remove(place))
+    }
+
+    /// Waits until a request arrives, up to a time limit.
+    pub(crate) fn wait_for_request(&self, timeout: Duration) {
+        drop(self.arrived.wait_timeout(lock(&self.requests), timeout));
+    }
+
+    /// Whether requests to the debugger wait for code that runs.
+    pub(crate) fn has_debug_requests(&self) -> bool {
+        let requests = lock(&self.requests);
+        let mut actions = requests.iter().map(|pending| &pending.action);
+        actions.any(|action| matches!(action, Action::Debug(_)))
+    }
+
+    /// Pages debug scripts from now on.
+    pub(crate) fn allow_debugging(&self) {
+        self.has_debugger.store(true, Ordering::Relaxed);
+    }
+
+    pub(crate) fn has_debugger(&self) -> bool {
+        self.has_debugger.load(Ordering::Relaxed)
+    }
+
+    /// Pages are told by it of what is new.
+    pub(crate) fn wake_by(&self, waker: SiteWaker) {
+        // There is one server.
+        let _ = self.waker.set(waker);
+    }
+
+    pub(crate) fn wake(&self) {
+        if let Some(waker) = self.waker.get() {
+            waker.wake();
+        }
     }
 
     /// A request waits for the simulation; false when there is no room.
-    fn submit(&self, pending: Pending) -> bool {
+    pub(crate) fn submit(&self, pending: Pending) -> bool {
         let mut requests = lock(&self.requests);
         let has_room = requests.len() < MAX_REQUESTS;
         if has_room {

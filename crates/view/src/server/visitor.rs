@@ -54,6 +54,9 @@ impl Page {
         if !self.shared.permits(&request.action) {
             return Err("this page may only read".to_owned());
         }
+        if matches!(request.action, Action::Debug(_)) && !self.shared.has_debugger() {
+            return Err("pages have no debugger here".to_owned());
+        }
         match &mut request.action {
             Action::Upload { name, data } => self.uploads.add(name, data)?,
             Action::Load { files, .. } => {

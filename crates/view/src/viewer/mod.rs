@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::busy::BusySign;
+use crate::debugging::Debugging;
 use crate::edit::{Editor, Pulls};
 use crate::images::Images;
 use crate::mirror::Demanded;
@@ -77,6 +78,7 @@ pub struct Viewer {
     sampled: Sampled,
     editor: Editor,
     pulls: Pulls,
+    debugging: Option<Debugging>,
 }
 
 /// Of what numbers for pages were read last.
@@ -113,12 +115,32 @@ impl Viewer {
         Ok(viewer)
     }
 
+    /// The same for pages that debug: they belong to the session of the simulator.
+    ///
+    /// # Errors
+    /// When the server cannot start.
+    pub fn start_with(
+        sim: &Simulator,
+        listener: TcpListener,
+        debugging: &Debugging,
+    ) -> io::Result<Self> {
+        let is_read_only = debugging.is_read_only();
+        let mut viewer = Self::serve(listener, Arc::clone(&debugging.shared), is_read_only)?;
+        viewer.debugging = Some(debugging.clone());
+        viewer.attach(sim);
+        Ok(viewer)
+    }
+
     /// The same for a simulator that is not attached yet.
     pub(crate) fn open(listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
+        Self::serve(listener, Arc::new(Shared::new(is_read_only)), is_read_only)
+    }
+
+    fn serve(listener: TcpListener, shared: Arc<Shared>, is_read_only: bool) -> io::Result<Self> {
         let token = ViewSite::new_token()?;
-        let shared = Arc::new(Shared::new(is_read_only));
         let site = ViewSite::new(Arc::clone(&shared), token.clone());
         let server = SiteServer::start(listener, |_| site)?;
+        shared.wake_by(server.waker());
         Ok(Self {
             observer: Observer::default(),
             shared,
@@ -136,6 +158,7 @@ impl Viewer {
             sampled: Sampled::default(),
             editor: Editor::default(),
             pulls: Pulls::default(),
+            debugging: None,
         })
     }
 
@@ -238,7 +261,18 @@ impl Viewer {
         sim.tape().add(REQUEST, action);
         let answer = perform(sim, action, &mut self.lines, &mut self.editor);
         self.pulls.note(action, sim.steps(), &answer);
+        self.look_again(action, answer.is_err());
         answer
+    }
+
+    /// Breakpoints lie in the memory of scripts, which an undo has brought back, and what has failed.
+    fn look_again(&self, action: &Action, has_failed: bool) {
+        let is_back = matches!(action, Action::Undo | Action::Redo);
+        if let Some(debugging) = &self.debugging
+            && (is_back || (has_failed && action.is_edit()))
+        {
+            debugging.set_again();
+        }
     }
 
     /// Keeps nothing that lies in the memory of the simulator, which may be taken back.
@@ -263,6 +297,7 @@ impl Viewer {
             let mut source = Source {
                 is_read_only: self.is_read_only,
                 edits: self.editor.describe(sim),
+                has_debugger: self.shared.has_debugger(),
                 ..Source::of(sim, &scene)
             };
             if self.is_held && source.now.state != SimulationState::Stopped {
@@ -277,6 +312,9 @@ impl Viewer {
 
     /// Pages get what was found.
     fn publish(&mut self, seen: Observation, windows: Option<ObservedWindows>, found: Demanded) {
+        if let Some(debugging) = self.debugging.as_ref().filter(|_| seen.is_another_scene) {
+            debugging.forget();
+        }
         let changed = {
             let mut mirror = self.shared.mirror();
             let mut changed = mirror.apply(seen);

@@ -199,6 +199,7 @@ fn read(
         text,
         file: file.as_deref().map(absolute),
         title,
+        script: own.map(|_| env.script.id),
         functions,
     })
 }
