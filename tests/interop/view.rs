@@ -19,6 +19,11 @@ fn scripts_are_changed_in_a_browser() {
 }
 
 #[test]
+fn scripts_are_debugged_in_a_browser() {
+    check_in_browser("view_debug.py");
+}
+
+#[test]
 fn scripts_are_changed_without_the_editor_component() {
     check_in_browser_with("view_script.py", &[Path::new("plain")]);
 }

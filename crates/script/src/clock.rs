@@ -95,6 +95,12 @@ impl Clock {
         self.state.get()
     }
 
+    /// Whether a simulation runs whose end was requested.
+    pub fn is_ending(&self) -> bool {
+        let state = self.state();
+        state.is_advancing() && (self.stop_requested.get() || state.is_stopping())
+    }
+
     /// Whether no simulation runs or is paused.
     pub fn is_stopped(&self) -> bool {
         self.state.get() == SimulationState::Stopped

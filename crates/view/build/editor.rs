@@ -18,7 +18,13 @@ pub const SETTING: &str = "SWANILDA_EDITOR";
 const LIMIT: Duration = Duration::from_secs(120);
 
 /// Files of ours, which import the packages.
-const OWN: &[&str] = &["editor.js", "names.js", "offers.js", "styles.js"];
+const OWN: &[&str] = &[
+    "breakpoints.js",
+    "editor.js",
+    "names.js",
+    "offers.js",
+    "styles.js",
+];
 /// A package, and the file of ours that others import in its place.
 const WRAPPED: (&str, &str) = ("style-mod", "styles.js");
 

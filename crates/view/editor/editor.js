@@ -9,6 +9,7 @@ import { highlightSelectionMatches, search, searchKeymap } from '@codemirror/sea
 import { EditorState, StateEffect } from '@codemirror/state';
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, showPanel } from '@codemirror/view';
 import { classHighlighter } from '@lezer/highlight';
+import { Breakpoints } from './breakpoints.js';
 import { calledAt, Names } from './names.js';
 import { description, offers } from './offers.js';
 
@@ -86,12 +87,12 @@ class Errors {
 /** Lines end as they did: as in Windows only if all do. */
 const ends = (text) => (text.includes('\r\n') && !/(^|[^\r])\n/.test(text) ? EditorState.lineSeparator.of('\r\n') : []);
 
-function extensions({ text, language, label, onChange, onSave }, errors) {
+function extensions({ text, language, label, onChange, onSave }, errors, breakpoints) {
   const save = { run: () => (onSave(), true), preventDefault: true };
   const mode = MODES[language];
   return [
     keymap.of([{ key: 'Mod-s', ...save }, { key: 'Mod-Enter', ...save }]),
-    ends(text), lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
+    ends(text), breakpoints.extension, lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
     indentUnit.of('    '), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(), highlightSelectionMatches(),
     mode ? StreamLanguage.define(mode) : [], syntaxHighlighting(classHighlighter),
     autocompletion({ override: [offers(load, language)] }), hovered, search({ top: true }), showPanel.of(signatures), errors.extension,
@@ -103,12 +104,13 @@ function extensions({ text, language, label, onChange, onSave }, errors) {
 
 /**
  * An editor in an element.
- * @param {{parent: HTMLElement, text: string, kept?: any, language: string, label: string, onChange: (text: string) => void, onSave: () => void, check: (text: string) => Promise<{line: number, message: string} | null>}} options
+ * @param {{parent: HTMLElement, text: string, kept?: any, language: string, label: string, onChange: (text: string) => void, onSave: () => void, check: (text: string) => Promise<{line: number, message: string} | null>, onBreakpoints?: ((breakpoints: any[]) => void) | null}} options
  * `kept` is what `keep` of an earlier one has returned: its text, its selection, and what can be undone.
  */
 export function makeEditor(options) {
   const errors = new Errors(options.check);
-  const config = { extensions: extensions(options, errors) };
+  const breakpoints = new Breakpoints(options.onBreakpoints ?? null);
+  const config = { extensions: extensions(options, errors, breakpoints) };
   const state = options.kept ? EditorState.fromJSON(options.kept, config, FIELDS) : EditorState.create({ doc: options.text, ...config });
   const view = new EditorView({ parent: options.parent, state });
   return {
@@ -120,6 +122,9 @@ export function makeEditor(options) {
       const line = view.state.doc.line(Math.min(Math.max(number, 1), view.state.doc.lines));
       view.dispatch({ selection: { anchor: line.from }, effects: EditorView.scrollIntoView(line.from, { y: 'center' }) });
     },
+    breakpoints: () => breakpoints.list(view),
+    showBreakpoints: (all) => breakpoints.show(view, all),
+    showStop: (line) => breakpoints.showStop(view, line),
     focus: () => view.focus(),
     destroy: () => view.destroy(),
   };

@@ -51,6 +51,8 @@ struct State {
     next: VecDeque<Incoming>,
     /// Where everything stands still.
     stop: Option<Value>,
+    /// A page has stopped the simulation meanwhile.
+    leaves: bool,
     /// Since when there has been no page.
     alone: Option<Instant>,
 }
@@ -164,7 +166,7 @@ impl Debugging {
         if incoming.is_some() {
             return incoming;
         }
-        if self.shared.stop_is_requested() {
+        if self.is_being_stopped(sim) {
             return Some(self.request("continue", Value::Null, None));
         }
         if self.is_left_alone() {
@@ -172,6 +174,14 @@ impl Debugging {
         }
         self.shared.wait_for_request(POLL);
         None
+    }
+
+    /// Whether a page has stopped the simulation where code stood still: the rest of it goes on to its end.
+    fn is_being_stopped(&self, sim: &Rc<Sim>) -> bool {
+        let is_asked = self.shared.stop_is_requested();
+        let mut state = self.state.borrow_mut();
+        state.leaves = is_asked || (state.leaves && sim.clock.is_ending());
+        state.leaves
     }
 
     /// Whether nobody is left who could let the code go on.

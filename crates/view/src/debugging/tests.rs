@@ -1,6 +1,8 @@
 //! Code that stands still while pages look at it, and others wait for nothing.
 #![allow(clippy::disallowed_methods, reason = "pages are on other threads")]
 
+use std::io::Write as _;
+use std::os::unix::net::UnixStream;
 use std::sync::Mutex;
 
 use super::*;
@@ -33,8 +35,13 @@ struct Desk {
 
 impl Desk {
     fn new(is_captured: bool) -> Self {
+        Self::with_client(is_captured, None)
+    }
+
+    /// A client at a connection debugs in place of the pages.
+    fn with_client(is_captured: bool, link: Option<Link>) -> Self {
         let debugging = Debugging::new(false, is_captured);
-        let session = debugging.session(None).expect("pages debug");
+        let session = debugging.session(link).expect("somebody debugs");
         let mut sim = Simulator::builder()
             .options(Options::default())
             .debugger(session)
@@ -273,4 +280,33 @@ fn another_scene_has_no_breakpoints() {
     let page = Page(desk.shared());
     assert_eq!(page.list("breakpoints"), json!([]));
     assert!(page.update().get("stopped").is_none());
+}
+
+/// A message of the Debug Adapter Protocol.
+fn framed(seq: i64, command: &str, arguments: &Value) -> String {
+    let text = json!({ "seq": seq, "type": "request", "command": command, "arguments": arguments });
+    let text = text.to_string();
+    format!("Content-Length: {}\r\n\r\n{text}", text.len())
+}
+
+#[test]
+fn pages_see_where_another_debugger_has_stopped() {
+    let (mut client, stream) = UnixStream::pair().expect("a connection");
+    let output = stream.try_clone().expect("its other end");
+    let link = Link::of_streams(stream, output, Arc::new(|| {})).expect("threads");
+    let mut desk = Desk::with_client(false, Some(link));
+    let script = desk.script;
+    let breakpoints = json!({ "source": { "script": script }, "breakpoints": [{ "line": 5 }] });
+    let set = framed(1, "setBreakpoints", &breakpoints);
+    client.write_all(set.as_bytes()).expect("it is sent");
+    desk.with_page(move |page| {
+        page.stopped_at(5);
+        assert!(!page.0.has_debugger());
+        assert_eq!(page.ask(Action::Script(script))["text"], CODE);
+        let refused = page.ask(Action::Play);
+        let reason = refused.as_str().expect("a sentence");
+        assert!(reason.contains("stands still in line 5"), "{reason}");
+        drop(client);
+        page.until(|| page.list("stopped").is_null().then_some(()));
+    });
 }

@@ -12,6 +12,7 @@ import { InspectorPane } from './panes/inspector.js';
 import { Overlay } from './panes/overlay.js';
 import { Plots } from './panes/plots/plots.js';
 import { Questions } from './panes/questions.js';
+import { debugKeys } from './panes/scripts/debugging.js';
 import { ScriptPane } from './panes/scripts/script.js';
 import { SensorImages } from './panes/sensor_images.js';
 import { Shelf } from './panes/shelf.js';
@@ -51,7 +52,7 @@ class Page {
     this.questions = new Questions(this);
     this.banners = new BannersPane(this);
     this.studio = new Studio(this);
-    const keys = [...keysOf(this), ...studioKeys(this)];
+    const keys = [...keysOf(this), ...studioKeys(this), ...debugKeys()];
     this.help = new Help(keys);
     this._listen(keys);
     this.layout.addButtons(at('bar'));

@@ -42,6 +42,8 @@ export class Store {
     this.banners = [];
     this.views = [];
     this.question = null;
+    this.breakpoints = [];
+    this.stopped = null; // where code stands still
     this.images = new Map();
     this.contacts = [];
   }
@@ -54,7 +56,7 @@ export class Store {
     this.samples = []; // messages
   }
 
-  /** Calls a function after changes of a topic: scene, timeline, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, samples, connection. */
+  /** Calls a function after changes of a topic: scene, timeline, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, breakpoints, stopped, image, contacts, properties, samples, connection. */
   on(topic, listener) {
     if (!this.listeners.has(topic)) this.listeners.set(topic, new Set());
     this.listeners.get(topic).add(listener);
@@ -65,7 +67,7 @@ export class Store {
     if (!this.dirty.size) return;
     const { dirty, changed, moved, changedDrawings, samples } = this;
     this._marks();
-    for (const topic of ['connection', 'scene', 'timeline', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties', 'samples']) {
+    for (const topic of ['connection', 'scene', 'timeline', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'breakpoints', 'stopped', 'image', 'contacts', 'properties', 'samples']) {
       if (!dirty.has(topic)) continue;
       const detail = { objects: changed, poses: moved, drawings: changedDrawings, samples }[topic];
       this.listeners.get(topic)?.forEach((listener) => listener(detail));
@@ -109,7 +111,7 @@ export class Store {
     const shown = new Set((message.windows ?? []).map((window) => window.id));
     const removedWindows = [...this.windows.keys()].filter((handle) => !shown.has(handle));
     this._forgetLines();
-    this._update({ timeline: null, selection: [], dialogs: [], banners: [], views: [], question: null, ...message, removed, removedDrawings, removedWindows });
+    this._update({ timeline: null, selection: [], dialogs: [], banners: [], views: [], question: null, breakpoints: [], stopped: null, ...message, removed, removedDrawings, removedWindows });
   }
 
   _update(message) {
@@ -121,7 +123,7 @@ export class Store {
     this._take(message, 'selection');
     if (message.logBegins) this._forgetLines();
     if (message.log?.length) this._lines(message.log);
-    for (const name of ['timeline', 'dialogs', 'banners', 'views', 'question']) this._take(message, name);
+    for (const name of ['timeline', 'dialogs', 'banners', 'views', 'question', 'breakpoints', 'stopped']) this._take(message, name);
     message.removedWindows?.forEach((id) => this.windows.delete(id));
     message.windows?.forEach((window) => this.windows.set(window.id, window));
     if (message.windows?.length || message.removedWindows?.length) this.dirty.add('windows');

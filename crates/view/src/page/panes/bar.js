@@ -21,7 +21,7 @@ export class Bar {
     this.timeline = new Timeline(this.source);
     this.live = el('button', { type: 'button', class: 'answer-button go-on', title: 'The simulation goes on live from this moment (G)', onclick: () => this.goOn() }, 'Go on from here');
     bar.append(this.play, this.back, this.ahead, this.stop, this.speed, this.time, this.state, ...this.timeline.elements, this.live);
-    for (const topic of ['scene', 'timeline']) this.store.on(topic, () => this._update());
+    for (const topic of ['scene', 'timeline', 'stopped']) this.store.on(topic, () => this._update());
     this.source.listeners?.add(() => this._update());
     this._update();
   }
@@ -32,6 +32,7 @@ export class Bar {
   }
 
   get running() {
+    if (this.store.stopped) return false;
     if (this.isCapture) return this.store.scene.playing;
     return this.source.live ? this.store.scene.state === 'running' : this.source.playing;
   }
@@ -61,6 +62,7 @@ export class Bar {
   _words() {
     const { scene, timeline } = this.store;
     if (!this.source.live) return '';
+    if (this.store.stopped) return 'at a breakpoint';
     if (!this.isCapture) return STATES[scene.state] ?? '';
     if (!timeline?.complete) return 'capture, being read';
     return scene.frame === timeline.frames - 1 ? timeline.outcome : 'capture';

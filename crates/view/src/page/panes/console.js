@@ -98,7 +98,13 @@ export class ConsolePane {
     this.recalled = this.history.length;
     this.input.value = '';
     this.say('print', `> ${code}`);
-    this.page.source.request('run', { code }).catch((error) => this.say('error', error.message)); // what it prints is in the log
+    this._run(code).catch((error) => this.say('error', error.message));
+  }
+
+  /** What it prints is in the log; while code stands still, it is about that. */
+  async _run(code) {
+    if (!this.store.stopped) return void (await this.page.source.request('run', { code }));
+    this.say('print', await this.page.script.debugging.evaluate(code));
   }
 
   _recall(by, event) {

@@ -1,5 +1,6 @@
 // What lies over the scene: notices, the name of what the pointer rests on, the directions of the axes, the size of the grid.
 import { el, setText, svg } from '../dom.js';
+import { sentenceOf } from './scripts/debugging.js';
 
 const SIZE = 76;
 const AXES = [['X', [1, 0, 0], 'axis-x'], ['Y', [0, 1, 0], 'axis-y'], ['Z', [0, 0, 1], 'axis-z']];
@@ -12,19 +13,19 @@ export class Overlay {
     this.sentence = el('span');
     this.stop = el('button', { type: 'button', class: 'answer-button', hidden: true, onclick: () => page.ask('stop') }, 'Stop');
     this.notice = document.getElementById('notice');
-    this.notice.replaceChildren(this.sentence, this.stop);
+    this.notice.replaceChildren(this.sentence, this.stop, page.script.debugging.buttons);
     this.tip = el('div', { class: 'tip', role: 'tooltip', hidden: true });
     this.grid = el('span', { class: 'grid-size' });
     this.lines = AXES.map(([name, , kind]) => ({ line: svg('line', { class: kind }), label: svg('text', { class: kind, 'text-anchor': 'middle', dy: '0.35em' }, name) }));
     this.axes = svg('svg', { class: 'axes', viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, role: 'group', 'aria-label': 'Directions of the axes' }, ...this.lines.flatMap(({ line, label }) => [line, label]));
     document.getElementById('overlay').append(this.axes, this.grid, this.tip);
-    for (const topic of ['connection', 'scene', 'objects']) this.store.on(topic, () => this._notice());
+    for (const topic of ['connection', 'scene', 'objects', 'stopped']) this.store.on(topic, () => this._notice());
     this._notice();
   }
 
   /** One sentence about what to do, or nothing. */
   _notice() {
-    const { connection, scene, objects, busy } = this.store;
+    const { connection, scene, objects, busy, stopped: halt } = this.store;
     const sentences = {
       connecting: 'Connecting to the simulator…',
       closed: 'The simulator has gone. Reconnecting…',
@@ -33,7 +34,7 @@ export class Overlay {
     const empty = !objects.size ? (scene.state ? 'The scene is empty.' : 'Loading the scene…') : null;
     const stopped = scene.state === 'stopped' && this.page.canWrite && !scene.steps ? 'The simulation is stopped. Press Space to start.' : null;
     const urgent = this.page.failure ?? sentences[connection.state] ?? busy;
-    const text = urgent ?? this.said ?? empty ?? this.loading ?? stopped ?? '';
+    const text = urgent ?? this.said ?? (halt && sentenceOf(halt)) ?? empty ?? this.loading ?? stopped ?? '';
     setText(this.sentence, text);
     this.stop.hidden = urgent !== busy || !busy || !this.page.canWrite;
     this.notice.hidden = !text;

@@ -20,9 +20,9 @@ const askBefore = (event) => event.preventDefault();
 const isChanged = (draft) => !!draft && draft.text !== draft.original;
 
 export class ScriptEditing {
-  /** @param {any} page @param {{changed: () => void, closed: () => void}} calls */
-  constructor(page, calls) {
-    Object.assign(this, { page, calls, draft: null, editor: null });
+  /** @param {any} page @param {import('./debugging.js').Debugging} debugging @param {{changed: () => void, closed: () => void}} calls */
+  constructor(page, debugging, calls) {
+    Object.assign(this, { page, debugging, calls, draft: null, editor: null });
     /** @type {Map<string, Draft>} */
     this.drafts = new Map();
     const button = (text, title, onclick) => el('button', { type: 'button', class: 'answer-button', title, onclick }, text);
@@ -61,7 +61,9 @@ export class ScriptEditing {
     if (this.draft !== draft) return;
     const { language, text, kept } = draft;
     const check = (code) => (language === 'lua' ? this.page.source.request('check', { code }) : Promise.resolve(null));
-    this.editor = make({ parent: this.place, text, kept, language, label: 'Text of the script', check, onChange: (text) => this._typed(text), onSave: () => this.save() });
+    const onBreakpoints = this.debugging.possible(language) ? (all) => this._setBreakpoints(all) : null;
+    this.editor = make({ parent: this.place, text, kept, language, label: 'Text of the script', check, onBreakpoints, onChange: (text) => this._typed(text), onSave: () => this.save() });
+    this.editor.showBreakpoints(draft.breakpoints ?? this.debugging.of(draft.handle));
     this.showPermission();
     this.showError();
     if (line) this.editor.reveal(line);
@@ -73,12 +75,30 @@ export class ScriptEditing {
   /** Leaves the editor; a text that is not saved is kept. */
   end() {
     const { draft, editor } = this;
-    if (draft && isChanged(draft)) this.drafts.set(draft.key, { ...draft, kept: editor?.keep() ?? null });
+    if (draft && isChanged(draft)) this.drafts.set(draft.key, { ...draft, kept: editor?.keep() ?? null, breakpoints: editor?.breakpoints() });
     else if (draft) this.drafts.delete(draft.key);
     editor?.destroy();
     Object.assign(this, { draft: null, editor: null });
     this.element.hidden = true;
     this._guard();
+  }
+
+  /** Those of an unsaved text count when it is saved: the lines of the script are others until then. */
+  _setBreakpoints(all) {
+    if (this.hasChanges) setText(this.status, 'Breakpoints count when the text is saved');
+    else this.debugging.set(this.draft.handle, all);
+  }
+
+  /** As the simulator has them. */
+  showBreakpoints() {
+    if (this.editor && !this.hasChanges) this.editor.showBreakpoints(this.debugging.of(this.draft.handle));
+  }
+
+  /** Breakpoints have moved with their lines. */
+  async _moveBreakpoints(handle) {
+    const now = this.editor?.breakpoints();
+    const lines = (all) => all.map(({ line, at, condition }) => `${at ?? line} ${condition ?? ''}`).join();
+    if (now && lines(now) !== lines(this.debugging.of(handle))) await this.debugging.set(handle, now).catch(() => {});
   }
 
   discard() {
@@ -119,6 +139,7 @@ export class ScriptEditing {
     if (!draft || !this.page.canWrite || this.saving) return;
     const { handle, text, version } = draft;
     this.saving = true;
+    await this._moveBreakpoints(handle);
     const reply = await this.page.ask('saveScript', { handle, text, version }).catch(() => null);
     this.saving = false;
     if (!reply) return;

@@ -28,6 +28,18 @@ export class PlainEditor {
   /** Errors stand above the text. */
   showError() {}
 
+  /** Breakpoints are set while the text is read. */
+  breakpoints() {
+    return null;
+  }
+
+  showBreakpoints() {}
+
+  /** @param {number | null} line */
+  showStop(line) {
+    if (line) this.reveal(line);
+  }
+
   /** @param {number} line */
   reveal(line) {
     const start = this.area.value.split('\n').slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);

@@ -1,6 +1,7 @@
 // Scripts to read and change: line numbers, colours for Lua, the line of the last error.
 import { el, iconButton, setText } from '../../dom.js';
 import { codeRows } from './code_lines.js';
+import { Debugging } from './debugging.js';
 import { ScriptEditing } from './editing.js';
 
 export class ScriptPane {
@@ -10,8 +11,10 @@ export class ScriptPane {
     this.error = el('p', { class: 'script-error', role: 'status', hidden: true });
     this.code = el('div', { class: 'code', tabindex: 0, role: 'region', 'aria-label': 'Text of the script' });
     this.edit = iconButton('edit', 'Change the text', () => this._change());
-    this.editing = new ScriptEditing(page, { changed: () => this._showTitle(), closed: () => this._load() });
-    pane.append(el('div', { class: 'inspected-head' }, this.title, this.edit), this.error, this.code, this.editing.element);
+    this.debugging = new Debugging(page, this);
+    this.editing = new ScriptEditing(page, this.debugging, { changed: () => this._showTitle(), closed: () => this._load() });
+    pane.append(el('div', { class: 'inspected-head' }, this.title, this.edit), this.error, this.debugging.element, this.code, this.editing.element);
+    this.code.addEventListener('click', (event) => this._pressed(event));
     page.store.on('scene', () => this._showPermission());
     page.store.on('objects', (changed) => changed.has(this.handle) && this._changed());
   }
@@ -23,6 +26,37 @@ export class ScriptPane {
     this.editing.end();
     this.handle = handle;
     await this._load(line);
+  }
+
+  /** A text that is no script's, to read. */
+  openText(title, text, line) {
+    this.editing.end();
+    Object.assign(this, { handle: null, script: null });
+    setText(this.title, title);
+    this._read({ text }, line);
+  }
+
+  /** A click on the number of a line. */
+  _pressed({ target }) {
+    const row = target.closest('.line-number')?.parentElement;
+    if (row && this.script && this.debugging.possible(this.script.language)) this.debugging.toggle(this.handle, Number(row.dataset.line));
+  }
+
+  /** Marks the lines of the script that have breakpoints. */
+  showBreakpoints() {
+    this.code.classList.toggle('debugged', !!this.script && this.debugging.possible(this.script.language));
+    for (const row of this.code.querySelectorAll('.breakpoint')) row.classList.remove('breakpoint', 'waiting');
+    for (const { line, at } of this.debugging.of(this.handle)) this.code.children[(at ?? line) - 1]?.classList.add('breakpoint', ...(at === null ? ['waiting'] : []));
+    this.editing.showBreakpoints();
+  }
+
+  /** Marks the line that is about to run. */
+  showStop() {
+    const { mark } = this.debugging;
+    const isHere = mark && (mark.handle === null ? mark.path === this.title.textContent : mark.handle === this.handle);
+    for (const row of this.code.querySelectorAll('.stopped')) row.classList.remove('stopped');
+    if (isHere) this.code.children[mark.line - 1]?.classList.add('stopped');
+    this.editing.editor?.showStop(isHere ? mark.line : null);
   }
 
   /** Shows the script as it is now, or the text of it that is not saved. */
@@ -45,6 +79,8 @@ export class ScriptPane {
     this._showPermission();
     this._showError();
     this._reveal(line ?? this.page.store.objects.get(this.handle)?.error?.line);
+    this.showBreakpoints();
+    this.showStop();
   }
 
   /** Shows the text to change. */
