@@ -266,7 +266,7 @@ def it_does_the_same_without_the_page(path, trajectory):
 
 
 def two_pages_build_at_once(page, address):
-    """What one does stays when the other one does something; undo says whose change it was."""
+    """What one does stays when the other one does something; undo says whose change it was, and asks before it takes it back."""
     crate = page.add("Cuboid")
     height = page.pose(crate)[2]
     with connect(address.replace("http", "ws", 1) + "stream", origin=address.rsplit("/", 2)[0]) as other:
@@ -278,13 +278,26 @@ def two_pages_build_at_once(page, address):
         page.key("z", "Control")
         page.shows(f"swanilda.store.poses.get({crate})[2] == {height}", "the move is undone")
         same("what would be undone", page.evaluate("swanilda.store.scene.undo"), "Rename Cuboid to theirs")
+        page.shows("swanilda.studio.toolbar.undo.title == 'Undo: Rename Cuboid to theirs, of another page (Ctrl+Z)'", "whose it is")
+        answers_undo(page, "Cancel")
+        same("it was not undone", page.evaluate(f"swanilda.store.objects.get({crate}).alias"), "theirs")
         other.send(json.dumps({"id": 2, "do": "edit", "edit": "remove", "arguments": {"handles": [crate]}}))
         page.shows(f"!swanilda.store.objects.has({crate})", "it is gone")
         other.send(json.dumps({"id": 3, "do": "undo"}))
         page.shows(f"swanilda.store.objects.get({crate})?.alias == 'theirs'", "it is there again")
-    for _ in range(2):
-        page.key("z", "Control")
+    answers_undo(page, "Undo")
+    page.shows(f"{ALIASES}.includes('Cuboid')", "the old name")
+    page.key("z", "Control")
     page.shows(f"{ALIASES}.length == 0", "an empty scene")
+
+
+def answers_undo(page, answer):
+    """To the question about what another page has done."""
+    page.focus_scene()
+    page.key("z", "Control")
+    page.shows("document.querySelector('dialog.confirm')?.textContent.startsWith('Another page has done this: Rename Cuboid to theirs.')", "the question")
+    page.press(f"[...document.querySelectorAll('dialog.confirm button')].find(button => button.textContent == '{answer}')")
+    page.shows("document.querySelector('dialog.confirm') === null", "the answer")
 
 
 def files_are_dropped(page):

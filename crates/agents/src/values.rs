@@ -1,30 +1,11 @@
 //! Values of scripts, JSON, and short texts.
 
 use scene::{Data, Key};
+pub(crate) use script::data_of_json as data;
 use serde_json::{Map, Value, json};
 
 /// Characters of a value in an answer.
 const MAX_LENGTH: usize = 400;
-
-/// A value for a script.
-pub(crate) fn data(value: &Value) -> Data {
-    match value {
-        Value::Null => Data::Nil,
-        Value::Bool(value) => Data::Bool(*value),
-        Value::Number(number) => number.as_i64().map_or_else(
-            || Data::Float(number.as_f64().unwrap_or_default()),
-            Data::Int,
-        ),
-        Value::String(text) => Data::text(text),
-        Value::Array(all) => Data::Array(all.iter().map(data).collect()),
-        Value::Object(fields) => Data::Map(
-            fields
-                .iter()
-                .map(|(name, value)| (Key::Text(name.clone().into_bytes()), data(value)))
-                .collect(),
-        ),
-    }
-}
 
 /// A value of a script. Numbers that JSON does not have become texts.
 pub(crate) fn value(data: &Data) -> Value {

@@ -22,6 +22,7 @@ mod error;
 mod event_loop;
 mod event_stream;
 mod function_ref;
+mod json;
 pub mod log;
 #[expect(unsafe_code, reason = "an edge to C")]
 mod lua;
@@ -76,6 +77,7 @@ pub use error::{ApiError, ApiResult};
 pub use function_ref::FunctionRef;
 pub use host::LevelChange;
 pub use host::Script;
+pub use json::data_of_json;
 pub use log::console::{Console, LogLine, OutputStream, Silent};
 pub use lua_runtime::coverage::executable;
 pub use lua_runtime::syntax::{SyntaxError, syntax_error};

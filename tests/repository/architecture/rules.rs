@@ -173,6 +173,7 @@ const SCRIPT: Rooms = &[
     ("error", &[]),
     ("log", &[]),
     ("wall_clock", &[]),
+    ("json", &[]),
     ("function_ref", &[]),
     ("sys_call", &[]),
     ("budget", &[]),

@@ -97,6 +97,7 @@ impl Page {
         let replies = Arc::<Mutex<VecDeque<String>>>::default();
         let pending = Pending {
             id: 1.into(),
+            author: None,
             action,
             replies: Arc::clone(&replies),
         };
@@ -224,6 +225,7 @@ fn a_stop_of_the_simulation_lets_code_go_on() {
         page.stopped_at(3);
         let pending = Pending {
             id: 1.into(),
+            author: None,
             action: Action::Stop,
             replies: Arc::default(),
         };

@@ -17,8 +17,8 @@ use history::History;
 pub(crate) use pulls::Pulls;
 
 use scene::sensor::{Camera, Light, LightType};
-use scene::{Data, Handle, Key, Kind};
-use script::SimulationState;
+use scene::{Data, Handle, Kind};
+use script::{SimulationState, data_of_json};
 use simulator::{ScriptKind, ScriptRef, Simulator};
 
 use crate::request::Action;
@@ -28,6 +28,8 @@ use crate::request::Action;
 pub(crate) struct Editor {
     history: History,
     helper: Option<ScriptRef>,
+    /// The page that asks.
+    author: Option<u64>,
     /// The scene when it was loaded or saved the last time, or before the first change since then.
     base: Option<Vec<u8>>,
 }
@@ -42,8 +44,8 @@ impl Editor {
     /// Whether carrying it out takes or brings back a snapshot, before which observers let go of the simulator.
     pub(crate) fn takes_snapshot(&self, sim: &Simulator, action: &Action) -> bool {
         match action {
-            Action::Undo | Action::Redo => true,
-            _ => is_undone(sim, action) && !self.history.continues(gesture(action).as_deref()),
+            Action::Undo { .. } | Action::Redo { .. } => true,
+            _ => is_undone(sim, action) && !self.history.continues(gesture(action)),
         }
     }
 
@@ -53,6 +55,8 @@ impl Editor {
         json!({
             "undo": self.history.undo_label(),
             "redo": self.history.redo_label(),
+            "undoBy": self.history.undo_author(),
+            "redoBy": self.history.redo_author(),
             "noUndo": captured.or(self.history.refusal()),
             "changes": self.history.changes(),
         })
@@ -73,7 +77,7 @@ impl Editor {
         if !is_undone(sim, action) {
             return work(self, sim).map(|(_, result)| result);
         }
-        let is_new = !self.history.continues(gesture.as_deref());
+        let is_new = !self.history.continues(gesture);
         let before = if is_new {
             self.history.snapshot(sim)
         } else {
@@ -81,7 +85,7 @@ impl Editor {
         };
         let outcome = work(self, sim);
         match (&outcome, before) {
-            (Ok((label, _)), before) => self.history.note(before, label, gesture),
+            (Ok((label, _)), before) => self.history.note(before, label, gesture, self.author),
             (Err(_), Some(before)) if action.is_edit() => history::bring_back(sim, &before)?,
             (Err(_), _) => {}
         }
@@ -161,7 +165,7 @@ impl Editor {
             return Err(format!("unknown edit: {name}"));
         }
         let function = format!("package.loaded.swanilda_edits.{name}");
-        let results = sim.call(helper, &function, &[data(arguments)]);
+        let results = sim.call(helper, &function, &[data_of_json(arguments)]);
         let results = results.map_err(|error| error.to_string())?;
         let result = results
             .into_iter()
@@ -185,14 +189,26 @@ impl Editor {
         self.function(sim, "pull", arguments)
     }
 
-    pub(crate) fn undo(&mut self, sim: &mut Simulator) -> Result<Value, String> {
-        need_stopped(sim)?;
-        self.history.undo(sim)
+    /// The page that asks for what comes.
+    pub(crate) fn set_author(&mut self, author: Option<u64>) {
+        self.author = author;
     }
 
-    pub(crate) fn redo(&mut self, sim: &mut Simulator) -> Result<Value, String> {
+    /// Takes back the last change; without `others` nothing that another page has done: the answer says so then.
+    pub(crate) fn undo(&mut self, sim: &mut Simulator, others: bool) -> Result<Value, String> {
         need_stopped(sim)?;
-        self.history.redo(sim)
+        self.history.undo(sim, self.only(others))
+    }
+
+    /// The same for the last one that was taken back.
+    pub(crate) fn redo(&mut self, sim: &mut Simulator, others: bool) -> Result<Value, String> {
+        need_stopped(sim)?;
+        self.history.redo(sim, self.only(others))
+    }
+
+    /// The page whose changes are meant, unless all are.
+    fn only(&self, others: bool) -> Option<u64> {
+        self.author.filter(|_| !others)
     }
 }
 
@@ -218,10 +234,9 @@ fn is_undone(sim: &Simulator, action: &Action) -> bool {
 }
 
 /// What changes have in common that are one step of undo.
-fn gesture(action: &Action) -> Option<String> {
+fn gesture(action: &Action) -> Option<u64> {
     match action {
-        Action::Edit { gesture, .. } => gesture.map(|number| format!("gesture {number}")),
-        Action::Set { handle, name, .. } => Some(format!("set {handle} {name}")),
+        Action::Edit { gesture, .. } | Action::Set { gesture, .. } => *gesture,
         _ => None,
     }
 }
@@ -248,30 +263,6 @@ fn without_place(error: &str) -> String {
         .and_then(|rest| rest.split_once("]:"));
     let text = place.and_then(|(_, rest)| rest.split_once(": "));
     text.map_or(error, |(_, text)| text).to_owned()
-}
-
-/// A value for a script.
-fn data(value: &Value) -> Data {
-    match value {
-        Value::Null => Data::Nil,
-        Value::Bool(value) => Data::Bool(*value),
-        Value::Number(number) => match number.as_i64() {
-            Some(integer) => Data::Int(integer),
-            None => Data::Float(number.as_f64().unwrap_or_default()),
-        },
-        Value::String(text) => Data::text(text),
-        Value::Array(items) => Data::Array(items.iter().map(data).collect()),
-        Value::Object(members) => Data::Map(
-            members
-                .iter()
-                .map(|(name, value)| (text_key(name), data(value)))
-                .collect(),
-        ),
-    }
-}
-
-fn text_key(name: &str) -> Key {
-    Key::Text(name.as_bytes().to_vec())
 }
 
 fn json_of(value: &Data) -> Value {

@@ -1,4 +1,5 @@
 // The stream of a simulator that runs: messages over a WebSocket, requests with answers, and waiting while it is gone.
+import { AUTHOR } from './settings.js';
 
 const WAITS = [500, 1000, 2000, 4000]; // milliseconds before each further attempt
 
@@ -10,7 +11,7 @@ export class LiveSource {
     this.count = 0;
     this.failures = 0;
     this.pending = new Map();
-    this.standing = new Map(); // requests that the simulator must know again after a pause: inspect, watch, show, sample
+    this.standing = new Map([['author', { number: AUTHOR }]]); // requests that the simulator must know again after a pause: inspect, watch, show, sample
   }
 
   start() {

@@ -13,6 +13,19 @@ function stored() {
 
 const values = stored();
 
+/** The number by which this window says who it is, also when its page is loaded again. */
+export const AUTHOR = numberOfWindow();
+
+function numberOfWindow() {
+  const fresh = Math.floor(Math.random() * 2 ** 50);
+  try {
+    sessionStorage[KEY] ??= fresh;
+    return Number(sessionStorage[KEY]);
+  } catch {
+    return fresh;
+  }
+}
+
 /** @template T @param {string} name @param {T} initial @returns {T} */
 export function setting(name, initial) {
   return Object.hasOwn(values, name) && typeof values[name] === typeof initial ? values[name] : initial;

@@ -30,8 +30,8 @@ pub(crate) fn perform(
 ) -> Result<Value, String> {
     match action {
         Action::Edit { .. }
-        | Action::Undo
-        | Action::Redo
+        | Action::Undo { .. }
+        | Action::Redo { .. }
         | Action::Pull { .. }
         | Action::Load { .. }
         | Action::Save { .. }
@@ -57,6 +57,7 @@ pub(crate) fn perform(
         | Action::Watch(_)
         | Action::Show { .. }
         | Action::Sample(_)
+        | Action::Author(_)
         | Action::Check(_) => {}
         Action::Inspect(Some(handle)) => {
             let rows = rows(sim, *handle)?.into_iter().map(|(_, row)| row);
@@ -66,6 +67,7 @@ pub(crate) fn perform(
             handle,
             name,
             value,
+            ..
         } => {
             return editor.record(sim, action, |_, sim| {
                 set(sim, *handle, name, value)?;
@@ -117,8 +119,8 @@ fn change(sim: &mut Simulator, action: &Action, editor: &mut Editor) -> Result<V
         Action::Edit {
             edit, arguments, ..
         } => editor.edit(sim, action, edit, arguments),
-        Action::Undo => editor.undo(sim),
-        Action::Redo => editor.redo(sim),
+        Action::Undo { others } => editor.undo(sim, *others),
+        Action::Redo { others } => editor.redo(sim, *others),
         Action::Pull {
             handle,
             point,
@@ -261,6 +263,7 @@ mod tests {
                     handle: floor,
                     name: name.into(),
                     value,
+                    gesture: None,
                 },
             )
         };
@@ -286,7 +289,8 @@ mod tests {
                 &Action::Set {
                     handle: 999,
                     name: "alias".into(),
-                    value: "a".into()
+                    value: "a".into(),
+                    gesture: None,
                 }
             )
             .is_err()

@@ -45,6 +45,7 @@ pub(crate) enum Action {
         handle: i64,
         name: String,
         value: Value,
+        gesture: Option<u64>,
     },
     Script(i64),
     /// A new text for the script that has the text of that version.
@@ -76,8 +77,15 @@ pub(crate) enum Action {
         arguments: Value,
         gesture: Option<u64>,
     },
-    Undo,
-    Redo,
+    /// With `others` also what another page has done.
+    Undo {
+        others: bool,
+    },
+    Redo {
+        others: bool,
+    },
+    /// The number by which a page says who it is.
+    Author(u64),
     /// Pulls a point of an object (in its frame) towards a place of the world during the next step; without a target it ends.
     Pull {
         handle: i64,
@@ -159,7 +167,10 @@ impl Action {
                 handle,
                 name,
                 value,
-            } => json!({ "do": "set", "handle": handle, "name": name, "value": value }),
+                gesture,
+            } => {
+                json!({ "do": "set", "handle": handle, "name": name, "value": value, "gesture": gesture })
+            }
             Self::Script(handle) => json!({ "do": "script", "handle": handle }),
             Self::SaveScript {
                 handle,
@@ -187,8 +198,9 @@ impl Action {
             } => {
                 json!({ "do": "edit", "edit": edit, "arguments": arguments, "gesture": gesture })
             }
-            Self::Undo => json!({ "do": "undo" }),
-            Self::Redo => json!({ "do": "redo" }),
+            Self::Undo { others } => json!({ "do": "undo", "others": others }),
+            Self::Redo { others } => json!({ "do": "redo", "others": others }),
+            Self::Author(number) => json!({ "do": "author", "number": number }),
             Self::Pull {
                 handle,
                 point,
@@ -232,6 +244,7 @@ impl Action {
                 | Self::Show { .. }
                 | Self::Sample(_)
                 | Self::Graph(_)
+                | Self::Author(_)
                 | Self::Changes
         )
     }
@@ -304,6 +317,7 @@ fn action(members: &Members) -> Result<Action, String> {
             handle: handle(members)?,
             name: text(members, "name")?,
             value: members.get("value").cloned().ok_or("`value` is missing")?,
+            gesture: gesture(members),
         },
         "script" => Action::Script(handle(members)?),
         "saveScript" => Action::SaveScript {
@@ -331,10 +345,18 @@ fn action(members: &Members) -> Result<Action, String> {
         "edit" => Action::Edit {
             edit: text(members, "edit")?,
             arguments: members.get("arguments").cloned().unwrap_or(Value::Null),
-            gesture: members.get("gesture").and_then(Value::as_u64),
+            gesture: gesture(members),
         },
-        "undo" => Action::Undo,
-        "redo" => Action::Redo,
+        "undo" => Action::Undo {
+            others: others(members),
+        },
+        "redo" => Action::Redo {
+            others: others(members),
+        },
+        "author" => {
+            let number = members.get("number").and_then(Value::as_u64);
+            Action::Author(number.ok_or("`number` is a whole number, zero or more")?)
+        }
         "pull" => Action::Pull {
             handle: handle(members)?,
             point: point(members, "point")?.ok_or("`point` is missing")?,
@@ -369,6 +391,16 @@ fn action(members: &Members) -> Result<Action, String> {
         }
         other => return Err(format!("unknown request: {}", shortened(other))),
     })
+}
+
+/// The number that changes have in common which are one step of undo.
+fn gesture(members: &Members) -> Option<u64> {
+    members.get("gesture").and_then(Value::as_u64)
+}
+
+/// Whether what other pages have done is meant as well.
+fn others(members: &Members) -> bool {
+    members.get("others").and_then(Value::as_bool) != Some(false)
 }
 
 fn shortened(text: &str) -> &str {

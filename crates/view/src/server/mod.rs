@@ -92,6 +92,8 @@ struct Busy {
 pub(crate) struct Pending {
     pub id: Value,
     pub action: Action,
+    /// The number of the page, if it has said who it is.
+    pub author: Option<u64>,
     pub replies: Arc<Mutex<VecDeque<String>>>,
 }
 

@@ -28,6 +28,8 @@ pub(super) struct Page {
     replies: Arc<Mutex<VecDeque<String>>>,
     /// The last change of what the simulation is busy with.
     busy: u64,
+    /// Who it is, as it says.
+    author: Option<u64>,
     /// Files that it is about to load.
     uploads: Uploads,
 }
@@ -45,6 +47,7 @@ impl Page {
             following: (Following::default(), 0),
             replies: Arc::default(),
             busy: 0,
+            author: None,
             uploads: Uploads::default(),
         }
     }
@@ -58,6 +61,7 @@ impl Page {
             return Err("pages have no debugger here".to_owned());
         }
         match &mut request.action {
+            Action::Author(number) => self.author = Some(*number),
             Action::Upload { name, data } => self.uploads.add(name, data)?,
             Action::Load { files, .. } => {
                 *files = self.uploads.take();
@@ -159,6 +163,7 @@ impl Visitor for Page {
                 let accepted = self.shared.submit(Pending {
                     id: id.clone(),
                     action,
+                    author: self.author,
                     replies,
                 });
                 (!accepted).then(|| {

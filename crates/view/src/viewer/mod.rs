@@ -206,6 +206,7 @@ impl Viewer {
         while let Some(pending) = self.shared.next_request(timeout) {
             timeout = Duration::ZERO;
             answered = true;
+            self.editor.set_author(pending.author);
             let result = self.perform(sim, &pending.action);
             self.is_held &= result.is_err() || !lets_go_on(&pending.action);
             pending.answer(result);
@@ -267,7 +268,7 @@ impl Viewer {
 
     /// Breakpoints lie in the memory of scripts, which an undo has brought back, and what has failed.
     fn look_again(&self, action: &Action, has_failed: bool) {
-        let is_back = matches!(action, Action::Undo | Action::Redo);
+        let is_back = matches!(action, Action::Undo { .. } | Action::Redo { .. });
         if let Some(debugging) = &self.debugging
             && (is_back || (has_failed && action.is_edit()))
         {

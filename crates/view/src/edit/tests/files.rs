@@ -39,8 +39,8 @@ fn files_of_pages_come_into_the_scene() {
     load(&mut desk, "meshes/box.stl").unwrap();
     assert_eq!(desk.aliases().len(), many + 1);
     assert!(load(&mut desk, "bad.ttt").is_err() && load(&mut desk, "none.stl").is_err());
-    desk.ask(&Action::Undo).unwrap();
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(desk.aliases().len(), 0);
     load(&mut desk, "made.lua").unwrap();
     desk.sim.iterate();
@@ -108,7 +108,7 @@ fn nothing_is_overwritten_without_a_word() {
         save(&mut desk, "ball.ttm", Some(ball), false).unwrap()["exists"],
         false
     );
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(desk.ask(&Action::Changes).unwrap()["text"], "");
     assert_eq!(
         save(&mut desk, "a.ttt", None, true).unwrap()["exists"],

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::Editor;
 use crate::perform::perform;
 use crate::request::Action;
+use scene::Data;
 use simulator::{Options, Simulator};
 
 // Snapshots need the memory of a simulator in one place.
@@ -84,19 +85,19 @@ fn every_kind_of_object_is_added_and_undone() {
     }
     let all = desk.aliases();
     for number in (0..all.len()).rev() {
-        desk.ask(&Action::Undo).unwrap();
+        desk.ask(&Action::Undo { others: true }).unwrap();
         assert_eq!(desk.aliases(), all[..number]);
     }
     assert_eq!(
-        desk.ask(&Action::Undo),
+        desk.ask(&Action::Undo { others: true }),
         Err("there is nothing to undo".into())
     );
     for number in 1..=all.len() {
-        desk.ask(&Action::Redo).unwrap();
+        desk.ask(&Action::Redo { others: true }).unwrap();
         assert_eq!(desk.aliases(), all[..number]);
     }
     assert_eq!(
-        desk.ask(&Action::Redo),
+        desk.ask(&Action::Redo { others: true }),
         Err("there is nothing to redo".into())
     );
 }
@@ -136,11 +137,11 @@ fn moves_of_one_gesture_are_one_step_of_undo() {
     drag(1, 2.0);
     assert_eq!(drag(2, 3.0)["label"], "Move Cuboid");
     assert_eq!(desk.position(cuboid), [3.0, 0.0, 1.0]);
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(desk.position(cuboid), [2.0, 0.0, 1.0]);
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(desk.position(cuboid), [0.0, 0.0, 0.05]);
-    desk.ask(&Action::Redo).unwrap();
+    desk.ask(&Action::Redo { others: true }).unwrap();
     assert_eq!(desk.position(cuboid), [2.0, 0.0, 1.0]);
 }
 
@@ -212,6 +213,7 @@ fn properties_and_code_are_undone_as_well() {
         handle: cuboid,
         name: "mass".into(),
         value: json!(5.0),
+        gesture: None,
     })
     .unwrap();
     assert_eq!(
@@ -220,17 +222,78 @@ fn properties_and_code_are_undone_as_well() {
     );
     desk.lua(&format!("x = 7 sim.setObjectAlias({cuboid}, 'box')"));
     assert_eq!(desk.aliases(), ["box"]);
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(
         (desk.aliases(), desk.lua("x == nil")),
         (vec!["Cuboid".into()], "true".into())
     );
-    desk.ask(&Action::Undo).unwrap();
-    desk.ask(&Action::Undo).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
+    desk.ask(&Action::Undo { others: true }).unwrap();
     assert_eq!(
         desk.lua(&format!("sim.getFloatProperty({cuboid}, 'mass')")),
         "1."
     );
+}
+
+#[test]
+fn properties_of_one_gesture_are_one_step_of_undo() {
+    let mut desk = Desk::new();
+    let cuboid = desk.add("cuboid", &json!({}));
+    let mut set = |gesture, mass: f64| {
+        desk.ask(&Action::Set {
+            handle: cuboid,
+            name: "mass".into(),
+            value: mass.into(),
+            gesture,
+        })
+        .unwrap();
+    };
+    for (gesture, mass) in [
+        (Some(7), 2.0),
+        (Some(7), 3.0),
+        (Some(8), 4.0),
+        (None, 5.0),
+        (None, 6.0),
+    ] {
+        set(gesture, mass);
+    }
+    let mut masses = Vec::new();
+    for _ in 0..4 {
+        desk.ask(&Action::Undo { others: true }).unwrap();
+        let Ok(Data::Float(mass)) = desk.sim.property_value(cuboid, "mass") else {
+            panic!("it has a mass");
+        };
+        masses.push(mass.round());
+    }
+    assert_eq!(masses, [5.0, 4.0, 3.0, 1.0]);
+}
+
+#[test]
+fn what_another_page_has_done_is_not_undone_without_asking() {
+    let mut desk = Desk::new();
+    let (mine, theirs) = (Some(1), Some(2));
+    desk.editor.set_author(mine);
+    let cuboid = desk.add("cuboid", &json!({}));
+    desk.editor.set_author(theirs);
+    desk.edit("rename", json!({ "handle": cuboid, "alias": "theirs" }))
+        .unwrap();
+    desk.editor.set_author(mine);
+    assert_eq!(desk.editor.describe(&desk.sim)["undoBy"], json!(theirs));
+    let (own, all) = (
+        |desk: &mut Desk| desk.ask(&Action::Undo { others: false }),
+        |desk: &mut Desk| desk.ask(&Action::Undo { others: true }),
+    );
+    let refused = json!({ "label": "Rename Cuboid to theirs", "isAnothers": true });
+    assert_eq!(
+        (own(&mut desk), desk.aliases()),
+        (Ok(refused), vec!["theirs".to_owned()])
+    );
+    assert_eq!(all(&mut desk).unwrap()["isAnothers"], Value::Null);
+    assert_eq!(desk.aliases(), ["Cuboid"]);
+    let redone = desk.ask(&Action::Redo { others: false }).unwrap();
+    assert_eq!(redone["isAnothers"], true);
+    assert_eq!(own(&mut desk).unwrap(), json!({ "label": "Add Cuboid" }));
+    assert!(desk.aliases().is_empty());
 }
 
 #[test]
@@ -272,7 +335,7 @@ fn changes_while_the_simulation_runs_are_not_undone() {
     .unwrap();
     assert_eq!(desk.position(cuboid)[0], 1.0);
     assert!(
-        desk.ask(&Action::Undo)
+        desk.ask(&Action::Undo { others: true })
             .unwrap_err()
             .contains("stop the simulation first")
     );

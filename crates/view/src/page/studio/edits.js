@@ -1,5 +1,7 @@
 // Changes of the scene: what a page may do, as requests with undo and redo.
 
+import { confirmed } from './confirm.js';
+
 let gestures = Math.floor(Math.random() * 2 ** 40); // numbers of gestures differ between pages
 
 export class Edits {
@@ -38,10 +40,14 @@ export class Edits {
     return this.possible;
   }
 
-  async back(what) {
+  /** @param {'undo' | 'redo'} what @param {boolean} others also what another page has done */
+  async back(what, others = false) {
     if (!this._mayEdit()) return;
-    const done = await this.page.source.request(what, {}).catch((error) => this.page.overlay.say(error.message));
-    if (done) this.page.overlay.say(`${what === 'undo' ? 'Undone' : 'Done again'}: ${done.label}`);
+    const done = await this.page.source.request(what, { others }).catch((error) => this.page.overlay.say(error.message));
+    if (!done) return;
+    if (!done.isAnothers) return this.page.overlay.say(`${what === 'undo' ? 'Undone' : 'Done again'}: ${done.label}`);
+    const verb = what === 'undo' ? 'Undo' : 'Redo';
+    if (await confirmed(`Another page has done this: ${done.label}. ${verb} it?`, verb)) this.back(what, true);
   }
 
   /** What is selected and can be changed: without what is below something else that is selected. */

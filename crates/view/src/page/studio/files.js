@@ -1,5 +1,6 @@
 // Files: dropped on the page or chosen, loaded into the scene; and the dialog that saves.
 import { el, setText } from '../dom.js';
+import { confirmed } from './confirm.js';
 
 const PIECE = 3 << 20; // bytes of a file in one request
 const SCENES = ['ttt', 'ttm', 'xml', 'urdf', 'sdf', 'world', 'glb', 'gltf', 'stl', 'obj', 'dae', 'ply', '3ds', 'dxf', 'lua'];
@@ -48,7 +49,7 @@ export class Files {
   async _load(files, place = null) {
     const main = this._main(files);
     if (!main) return this.page.overlay.say('None of these files is a scene, a model, a robot or a mesh.');
-    if (ending(main) === 'ttt' && this.store.scene.changes > 0 && !confirm(`${main} takes the place of this scene, with changes that are not saved. Undo brings it back.`)) return;
+    if (ending(main) === 'ttt' && this.store.scene.changes > 0 && !(await confirmed(`${main} takes the place of this scene, with changes that are not saved. Undo brings it back.`, 'Load it'))) return;
     this.page.overlay.say(`Loading ${main} …`);
     try {
       for (const [name, file] of files) await this._send(name, file);

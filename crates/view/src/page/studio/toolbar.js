@@ -1,6 +1,6 @@
 // The tools over the scene: select, move, turn; the frame of drags; add, undo, redo, open, save.
 import { el, iconButton } from '../dom.js';
-import { remember, setting } from '../settings.js';
+import { AUTHOR, remember, setting } from '../settings.js';
 
 const TOOLS = [['select', 'select', 'Select (Q)'], ['move', 'move', 'Move (M); while the simulation runs: pull'], ['turn', 'turn', 'Turn (R); while the simulation runs: pull']];
 const FRAMES = [['world', 'World'], ['parent', 'Parent'], ['own', 'Own']];
@@ -50,12 +50,15 @@ export class Toolbar {
     const { scene } = this.store;
     const { possible, stopped } = this.studio.edits;
     this.element.hidden = !possible;
-    describe(this.undo, 'Undo', scene.undo, scene.noUndo, 'Ctrl+Z', stopped);
-    describe(this.redo, 'Redo', scene.redo, null, 'Ctrl+Shift+Z', stopped);
+    describe(this.undo, 'Undo', named(scene.undo, scene.undoBy), scene.noUndo, 'Ctrl+Z', stopped);
+    describe(this.redo, 'Redo', named(scene.redo, scene.redoBy), null, 'Ctrl+Shift+Z', stopped);
     this.save.classList.toggle('unsaved', scene.changes > 0);
     for (const button of [this.open, this.save]) button.disabled = !stopped;
   }
 }
+
+/** What another page has done is named so. */
+const named = (label, author) => (label && author !== AUTHOR ? `${label}, of another page` : label);
 
 function describe(button, what, label, refusal, key, stopped) {
   button.disabled = !label || !stopped;

@@ -10,38 +10,37 @@ export class Variables {
     this.element = el('ul', { class: 'debug-variables', 'aria-label': 'Variables', tabindex: 0 });
   }
 
-  /** @param {{name: string, variablesReference: number}[]} scopes */
-  async show(scopes) {
+  /** @param {{name: string, variablesReference: number}[]} scopes @param {string} [path] of what has the focus */
+  async show(scopes, path) {
     const shown = ++this.shown;
+    this.scopes = scopes;
     const rows = await Promise.all(scopes.map((scope) => this._row({ ...scope, value: '' }, '')));
-    if (shown === this.shown) this.element.replaceChildren(...rows);
+    if (shown !== this.shown) return;
+    const isHere = this.element.contains(document.activeElement);
+    this.element.replaceChildren(...rows);
+    if (isHere && path !== undefined) this.element.querySelector(`[data-path="${CSS.escape(path)}"]`)?.focus();
   }
 
   /** A variable, and what it has if that is open. */
   async _row({ name, value, type, variablesReference }, above) {
     const path = above ? `${above}/${name}` : name;
-    const list = el('ul', {});
     const text = [el('span', { class: 'variable-name' }, name), value !== '' && el('span', { class: `variable-value ${type ?? ''}`, title: value }, value)];
     if (!variablesReference) return el('li', {}, el('div', { class: 'variable' }, ...text));
     const isOpen = this.open.has(path);
-    const button = el('button', { type: 'button', class: 'variable', 'aria-expanded': String(isOpen), onclick: () => this._toggle(button, list, variablesReference, path) }, ...text);
-    if (isOpen) await this._fill(list, variablesReference, path);
-    return el('li', {}, button, list);
+    const button = el('button', { type: 'button', class: 'variable', 'data-path': path, 'aria-expanded': String(isOpen), onclick: () => this._toggle(path) }, ...text);
+    return el('li', {}, button, isOpen && el('ul', {}, ...(await this._rows(variablesReference, path))));
   }
 
-  async _fill(list, variablesReference, path) {
+  async _rows(variablesReference, path) {
     const { variables } = await this.ask('variables', { variablesReference, count: COUNT }).catch(() => ({ variables: [] }));
     const rows = await Promise.all(variables.map((variable) => this._row(variable, path)));
     if (variables.length === COUNT) rows.push(el('li', { class: 'hint' }, `the first ${COUNT}`));
     if (!rows.length) rows.push(el('li', { class: 'hint' }, 'none'));
-    list.replaceChildren(...rows);
+    return rows;
   }
 
-  async _toggle(button, list, reference, path) {
-    const isOpen = !this.open.delete(path);
-    if (isOpen) this.open.add(path);
-    button.setAttribute('aria-expanded', String(isOpen));
-    if (isOpen) await this._fill(list, reference, path);
-    else list.replaceChildren();
+  _toggle(path) {
+    if (!this.open.delete(path)) this.open.add(path);
+    this.show(this.scopes, path);
   }
 }
