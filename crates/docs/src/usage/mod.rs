@@ -337,11 +337,39 @@ fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str
     if after.is_some_and(|token| matches!(token.kind, Kind::Sign(b'.' | b':' | b'[' | b'('))) {
         return None;
     }
-    let equals = require_of(tokens, at)?.checked_sub(1)?;
-    match &tokens[equals.checked_sub(1)?].kind {
-        Kind::Name(name) if tokens[equals].kind == Kind::Sign(b'=') => Some(name),
-        _ => None,
+    let (equals, place) = place_in_list(tokens, require_of(tokens, at)?)?;
+    names_before(tokens, equals).get(place).copied()
+}
+
+/// The `=` of the assignment whose values a value is among, and how many stand before it.
+fn place_in_list(tokens: &[Token<'_>], value: usize) -> Option<(usize, usize)> {
+    let (mut open, mut before) = (0_usize, 0);
+    for place in (value.saturating_sub(MAX_ARGUMENT_TOKENS)..value).rev() {
+        match tokens[place].kind {
+            Kind::Sign(b')' | b'}' | b']') => open += 1,
+            Kind::Sign(b'(' | b'{' | b'[') => open = open.checked_sub(1)?,
+            Kind::Sign(b',') if open == 0 => before += 1,
+            Kind::Sign(b'=') if open == 0 => return Some((place, before)),
+            _ if open == 0 && before == 0 => return None,
+            _ => {}
+        }
     }
+    None
+}
+
+/// The names that are assigned to, in their order.
+fn names_before<'a>(tokens: &'a [Token<'_>], equals: usize) -> Vec<&'a str> {
+    let mut names = Vec::new();
+    let mut end = equals;
+    while let Some(Kind::Name(name)) = end.checked_sub(1).map(|place| &tokens[place].kind) {
+        names.push(name.as_str());
+        match end.checked_sub(2) {
+            Some(comma) if tokens[comma].kind == Kind::Sign(b',') => end = comma,
+            _ => break,
+        }
+    }
+    names.reverse();
+    names
 }
 
 /// The use of a module of CoppeliaSim that is missing here, or approximated as a whole. Other modules say so by their functions.

@@ -155,6 +155,28 @@ fn variables_with_the_names_of_modules() {
 }
 
 #[test]
+fn modules_that_are_required_side_by_side() {
+    for code in [
+        "sim, ik = require 'sim', require 'simIK' sim.getObject('/a') ik.createEnvironment() ik.frobnicate() sim.createEnvironment()",
+        "local sim, ik = require('sim'), require('simIK') sim.getObject('/a') ik.createEnvironment() ik.frobnicate() sim.createEnvironment()",
+        "one, sim, two, ik = f(1, 2), require 'sim', {a = 1, 2}, require 'simIK' sim.getObject('/a') ik.createEnvironment() ik.frobnicate() sim.createEnvironment()",
+    ] {
+        let wanted = [
+            Support::Works,
+            Support::Works,
+            Support::Missing,
+            Support::Missing,
+        ];
+        assert_eq!(supports(code), wanted, "{code}");
+    }
+    assert_eq!(names("f(a, require 'simZMQ') a.socket(1)"), [""; 0]);
+    assert_eq!(
+        names("a = require 'simZMQ', 1 a.socket(1)"),
+        ["simZMQ.socket"]
+    );
+}
+
+#[test]
 fn globals_of_v_rep() {
     assert_eq!(
         supports("simAddObjectCustomData(1, 2, 'x') simHandlePath(1, 2)"),
