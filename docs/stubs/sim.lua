@@ -148,21 +148,21 @@ function sim.addObjectToCollection(collectionHandle, objectHandle, what, options
 ---@return integer result 1
 function sim.addObjectToSelection(what, objectHandle) end
 
---- A source of particles. They are not simulated, with a warning.
----@param objectType integer sim.particle_*
----@param size number of a particle
----@param density number of a particle
----@param params any of the physics
----@param lifeTime number in seconds
----@param maxItemCount integer more replace old ones
----@param ... any
+--- A source of particles: small spheres that fall, are slowed down, collide with shapes and push them while the simulation runs. It ends with the script.
+---@param objectType integer sim.particle_*: how they are drawn, plus flags
+---@param size number diameter of a particle, metres
+---@param density number of a particle, kg/m³
+---@param params any of the physics: how many follow, then number and value of each: 0 friction and 1 restitution with Bullet, 2 friction with ODE, 6 linear and 7 quadratic drag, 8 and 9 the same of particles in water where they are above it, 10 and 11 friction and restitution with Vortex, 17 and 18 with Newton; nil: all 0
+---@param lifeTime number of a particle in seconds, 0 for ever
+---@param maxItemCount integer further ones are refused, or replace the oldest with sim.particle_cyclic
+---@param ... any colour: red, green, blue; then nil, and the same of specular and of emitted light
 ---@return integer particleObjectHandle its handle
 function sim.addParticleObject(objectType, size, density, params, lifeTime, maxItemCount, ...) end
 
---- Adds a particle. It is not simulated.
+--- Emits a particle: its place and its velocity in the world, then size, density and colour where the type says so.
 ---@param particleObjectHandle integer from sim.addParticleObject
----@param itemData? any position and target position; nil removes all
----@return integer result 1
+---@param itemData? any numbers, or a buffer of 32-bit ones; nil removes all particles
+---@return integer result 1, or 0 if there is no room, or not all numbers
 function sim.addParticleObjectItem(particleObjectHandle, itemData) end
 
 --- Shows points, as a drawing object: V-REP's point clouds were no objects of the scene.
@@ -2910,7 +2910,7 @@ function sim.removeObjectFromSelection(what, objectHandle) end
 ---@param delayedRemoval? boolean remove them when the scripts have run
 function sim.removeObjects(objectHandles, delayedRemoval) end
 
---- Removes a source of particles.
+--- Removes a source of particles, and its particles.
 ---@param particleObjectHandle integer from sim.addParticleObject, or sim.handle_all
 function sim.removeParticleObject(particleObjectHandle) end
 

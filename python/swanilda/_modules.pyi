@@ -2215,18 +2215,19 @@ class _sim:
         objectHandle: the object meant
         """
     def addParticleObject(self, objectType: int, size: float, density: float, params: Any | None = ..., lifeTime: float | None = ..., maxItemCount: int | None = ..., /, *args: Any) -> int:
-        """A source of particles. They are not simulated, with a warning.
-        objectType: sim.particle_*
-        size: of a particle
-        density: of a particle
-        params: of the physics
-        lifeTime: in seconds
-        maxItemCount: more replace old ones
+        """A source of particles: small spheres that fall, are slowed down, collide with shapes and push them while the simulation runs. It ends with the script.
+        objectType: sim.particle_*: how they are drawn, plus flags
+        size: diameter of a particle, metres
+        density: of a particle, kg/m³
+        params: of the physics: how many follow, then number and value of each: 0 friction and 1 restitution with Bullet, 2 friction with ODE, 6 linear and 7 quadratic drag, 8 and 9 the same of particles in water where they are above it, 10 and 11 friction and restitution with Vortex, 17 and 18 with Newton; nil: all 0
+        lifeTime: of a particle in seconds, 0 for ever
+        maxItemCount: further ones are refused, or replace the oldest with sim.particle_cyclic
+        ...: colour: red, green, blue; then nil, and the same of specular and of emitted light
         """
     def addParticleObjectItem(self, particleObjectHandle: int, itemData: Any | None = ..., /) -> int:
-        """Adds a particle. It is not simulated.
+        """Emits a particle: its place and its velocity in the world, then size, density and colour where the type says so.
         particleObjectHandle: from sim.addParticleObject
-        itemData: position and target position; nil removes all
+        itemData: numbers, or a buffer of 32-bit ones; nil removes all particles
         """
     def addPointCloud(self, pageMask: int, layerMask: int, objectHandle: int, options: int, pointSize: float, coordinates: Sequence[float] | _Array, defaultColors: Sequence[int] | _Array | None = ..., pointColors: Sequence[int] | _Array | None = ..., pointNormals: Sequence[float] | _Array | None = ..., /) -> int:
         """Shows points, as a drawing object: V-REP's point clouds were no objects of the scene.
@@ -4452,7 +4453,7 @@ class _sim:
         delayedRemoval: remove them when the scripts have run
         """
     def removeParticleObject(self, particleObjectHandle: int, /) -> None:
-        """Removes a source of particles.
+        """Removes a source of particles, and its particles.
         particleObjectHandle: from sim.addParticleObject, or sim.handle_all
         """
     def removePointsFromPointCloud(self, pointCloudHandle: int, options: int, points: Sequence[float] | _Array | None = ..., tolerance: float | None = ..., /) -> int:

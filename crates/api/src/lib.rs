@@ -106,6 +106,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Scene files", files::scene_file::FUNCTIONS),
     ("Graphs", display::graph::FUNCTIONS),
     ("Drawing objects", display::drawing::FUNCTIONS),
+    ("Particles", display::particles::FUNCTIONS),
     ("Display", display::views::FUNCTIONS),
     ("Display", display::window::FUNCTIONS),
     ("Banners and views of cameras", display::banners::FUNCTIONS),

@@ -9,6 +9,7 @@
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
 //! - `ropes`: ropes and cables, moved by the crate `soft` before the mechanisms are solved.
+//! - `particles`: small spheres, moved after the bodies.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
@@ -29,6 +30,7 @@ mod load;
 mod mechanisms;
 mod motors;
 mod near;
+mod particles;
 mod plan;
 mod report;
 mod ropes;
@@ -52,6 +54,7 @@ use links::Links;
 use mechanisms::Mechanisms;
 use mechanisms::workers::Workers;
 use motors::Motion;
+use particles::Particles;
 use plan::Plan;
 pub use report::Trigger;
 use ropes::{Response, Ropes};
@@ -82,6 +85,7 @@ pub struct Dynamics {
     links: Links,
     mechanisms: Mechanisms,
     ropes: Ropes,
+    particles: Particles,
     contacts: ContactLog,
     frozen: Frozen,
     /// Roots too far away to be simulated.
@@ -183,8 +187,14 @@ impl Dynamics {
         *self = Self {
             workers: std::mem::take(&mut self.workers),
             forms: std::mem::take(&mut self.forms),
+            particles: self.particles.anew(),
             ..Self::default()
         };
+    }
+
+    /// Whether nobody but scripts looks at the scene from now on: what only looks would show is not computed.
+    pub fn set_unseen(&mut self, is_unseen: bool) {
+        self.particles.are_unseen = is_unseen;
     }
 
     /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
@@ -203,7 +213,8 @@ impl Dynamics {
         }
         let sub_steps = settings.sub_steps(time_step);
         self.update_plan(scene);
-        if self.ropes.is_empty() && !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
+        let has_bodies = self.bodies.iter().any(|(_, body)| body.build.dynamic);
+        if self.ropes.is_empty() && !has_bodies && scene.drawings().particles().is_empty() {
             return Ok(None);
         }
         self.ropes.follow(scene);
@@ -346,10 +357,12 @@ impl Dynamics {
         let mut world = self.world.take()?;
         let call = self.call?;
         // Nobody else can have changed the forces since the first sub-step.
-        let is_pushed = self.bodies.are_in_fluid || self.ropes.have_pushed;
+        let was_pushed = self.ropes.have_pushed || self.particles.have_pushed;
+        let is_pushed = self.bodies.are_in_fluid || was_pushed;
         if sub_step == 1 || script_access.possible || is_pushed {
             self.bodies.apply_forces(&mut world, scene, call.step);
         }
+        self.particles.push(&mut world, call.step);
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
@@ -360,6 +373,7 @@ impl Dynamics {
         let is_known = is_integrated
             && !script_access.possible
             && self.ropes.is_empty()
+            && scene.drawings().particles().is_empty()
             && self.mechanisms.know_surroundings(&mut world);
         if !is_known {
             contacts::set_hooks(&mut world, &verdicts, &apart);

@@ -38,6 +38,7 @@ impl Dynamics {
     pub fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
         let SubStep {
             mut world,
+            gravity,
             step,
             seen,
             is_integrated,
@@ -77,6 +78,8 @@ impl Dynamics {
         }
         self.contacts
             .add_sub_step(&world, self.mechanisms.contacts(), step);
+        self.particles
+            .advance(scene, &self.bodies, &world, gravity, step);
         self.world = Some(world);
         self.stop_bodies(&stopped, scene);
     }
@@ -143,6 +146,7 @@ impl Dynamics {
             .iter()
             .filter_map(|(handle, link)| read(scene, handle, link))
             .collect();
+        scene.drawings_mut().draw_particles();
         self.write_flags(scene);
         triggers
     }

@@ -64,6 +64,13 @@ impl Sim {
         self.watching().watcher.replace(watcher.map(Outer::new));
     }
 
+    /// Whether nobody but scripts looks at the scene from now on, so that what scripts cannot read need not be computed: particles that only pages and recordings show.
+    pub fn set_unseen(&self, is_unseen: bool) {
+        if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
+            dynamics.set_unseen(is_unseen);
+        }
+    }
+
     /// Keeps lines and messages from now on, for [`with_present`](Self::with_present).
     pub fn keep_happenings(&self) {
         self.log.keep_recent();

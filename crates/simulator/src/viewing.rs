@@ -100,6 +100,11 @@ impl Simulator {
         self.inside().set_person(ask);
     }
 
+    /// Whether nobody but scripts looks at the scene from now on, so that what scripts cannot read need not be computed: particles that only pages and recordings show.
+    pub fn set_unseen(&self, is_unseen: bool) {
+        self.inside().set_unseen(is_unseen);
+    }
+
     /// Shows the state after each step from now on; None ends that.
     pub fn watch(&self, watcher: Option<Watcher>) {
         self.inside().watch(watcher);

@@ -149,6 +149,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     if args.branches.is_asked_for() {
         return branches::run(args, sim, session);
     }
+    sim.set_unseen(!args.shows_something());
     // A replay writes no files.
     let recorder = if is_replay {
         None
@@ -356,6 +357,11 @@ impl Args {
     }
 
     /// The same with pages that look on, which may pause and resume the simulation as long as they like.
+    /// Whether somebody sees the scene while it runs.
+    fn shows_something(&self) -> bool {
+        self.view.is_asked_for() || self.video.is_asked_for() || self.record.is_asked_for()
+    }
+
     fn run_viewed(&self, sim: &mut Simulator, mut live: Live, interrupt: &Interrupt) -> RunTotals {
         let mut viewed = self.viewed(sim);
         while viewed.iterate(sim, &mut live, || interrupt.is_requested()) {}

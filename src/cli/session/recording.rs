@@ -18,6 +18,10 @@ pub(in crate::cli) struct RecordArgs {
 }
 
 impl RecordArgs {
+    pub(in crate::cli) fn is_asked_for(&self) -> bool {
+        self.record.is_some()
+    }
+
     /// Begins the file with the present state.
     ///
     /// # Errors

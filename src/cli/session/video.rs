@@ -27,6 +27,10 @@ pub(in crate::cli) struct VideoArgs {
 }
 
 impl VideoArgs {
+    pub(in crate::cli) fn is_asked_for(&self) -> bool {
+        self.video.is_some()
+    }
+
     /// The video begins with the simulation.
     pub(in crate::cli) fn start(&self, sim: &mut Simulator, scene: &Path) {
         let Some(file) = self.video.clone() else {

@@ -122,6 +122,7 @@ const DYNAMICS: Rooms = &[
         "ropes",
         &["bodies", "contacts", "convert", "near", "plan", "world"],
     ),
+    ("particles", &["bodies", "convert", "world"]),
     (
         "report",
         &["bodies", "convert", "links", "load", "plan", "world"],

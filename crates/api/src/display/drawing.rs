@@ -98,7 +98,7 @@ fn add_drawing_object_item(
 }
 
 /// The numbers of a table, or of a buffer of 32-bit ones.
-fn numbers(data: &Data) -> Result<Vec<f64>> {
+pub(super) fn numbers(data: &Data) -> Result<Vec<f64>> {
     match data {
         Data::Nil => Ok(Vec::new()),
         Data::Array(items) => items

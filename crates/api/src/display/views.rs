@@ -1,22 +1,13 @@
-//! `sim.*`: floating views, which pages of the viewer show, and particles, which are not simulated.
-
-use std::cell::RefCell;
-use std::rc::Rc;
+//! `sim.*`: floating views, which pages of the viewer show.
 
 use api_macro::api;
 
-use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::{Data, Handle, SceneError, special};
-use script::{ByHandle, Number, Rest};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, SceneError};
+use script::{Number, Rest};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    floating_view_add,
-    floating_view_remove,
-    adjust_view,
-    add_particle_object,
-    add_particle_object_item,
-    remove_particle_object,
-];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![floating_view_add, floating_view_remove, adjust_view,];
 
 /// Adds a view above the scene. Pages of the viewer show it.
 ///
@@ -87,94 +78,8 @@ fn adjust_view(
     Ok(1)
 }
 
-/// A source of particles. They are not simulated, with a warning.
-///
-/// @param objectType sim.particle_*
-/// @param size of a particle
-/// @param density of a particle
-/// @param params of the physics
-/// @param lifeTime in seconds
-/// @param maxItemCount more replace old ones
-/// @return particleObjectHandle its handle
-#[api("sim.addParticleObject")]
-#[expect(clippy::too_many_arguments, reason = "the reference has them")]
-fn add_particle_object(
-    cx: &mut Cx,
-    object_type: Number,
-    size: f64,
-    density: f64,
-    params: Data,
-    life_time: f64,
-    max_item_count: Number,
-    #[name("...")] colour: Rest,
-) -> Result<i64> {
-    let _ = (
-        object_type,
-        size,
-        density,
-        params,
-        life_time,
-        max_item_count,
-        colour,
-    );
-    cx.env()
-        .warn_once("sim.addParticleObject", "particles are not simulated.");
-    Ok(particles(cx).borrow_mut().add(Particles))
-}
-
-/// Adds a particle. It is not simulated.
-///
-/// @param particleObjectHandle from sim.addParticleObject
-/// @param itemData position and target position; nil removes all
-/// @return result 1
-#[api("sim.addParticleObjectItem")]
-fn add_particle_object_item(
-    cx: &mut Cx,
-    particle_object_handle: Number,
-    #[default(Data::Nil)] item_data: Data,
-) -> Result<i64> {
-    let _ = item_data;
-    particles(cx)
-        .borrow_mut()
-        .get_mut(particle_object_handle.0)
-        .map(|_| 1)
-        .ok_or_else(no_particles)
-}
-
-/// Removes a source of particles.
-///
-/// @param particleObjectHandle from sim.addParticleObject, or sim.handle_all
-#[api("sim.removeParticleObject")]
-fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result<()> {
-    remove(
-        &mut particles(cx).borrow_mut(),
-        particle_object_handle,
-        no_particles,
-    )
-}
-
-/// A source of particles.
-struct Particles;
-
-/// Removes one of them, or all.
-fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -> Result<()> {
-    if handle.0 == special::ALL {
-        all.clear();
-        return Ok(());
-    }
-    all.remove(handle.0).map(drop).ok_or_else(missing)
-}
-
-fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
-    cx.script_state()
-}
-
 fn object(cx: &Cx, handle: Number) -> Result<Handle> {
     let scene = cx.scene();
     let handle = Handle::from_raw(handle.0).ok_or(SceneError::NoSuchObject)?;
     Ok(scene.object(handle)?.handle())
-}
-
-fn no_particles() -> ApiError {
-    ApiError::Other("particle object does not exist.".into())
 }

@@ -16,6 +16,7 @@ use super::default_names::default_name;
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     apply_texture,
     drawing_item_size,
+    particle_item_size,
     give_old_name,
     callee,
     scripts,
@@ -68,6 +69,17 @@ fn drawing_item_size(cx: &Cx, drawing_object_handle: Number) -> Result<i64> {
         .drawings()
         .get(drawing_object_handle.0 & HANDLE_BITS)?;
     Ok(numbers::count(drawing.item_len()))
+}
+
+/// How many numbers a particle has.
+///
+/// @param particleObjectHandle the particle object
+/// @return size
+#[api("swanilda.library.particleItemSize")]
+fn particle_item_size(cx: &Cx, particle_object_handle: Number) -> Result<i64> {
+    let scene = cx.scene();
+    let object = scene.drawings().particles().get(particle_object_handle.0)?;
+    Ok(numbers::count(object.item_len()))
 }
 
 /// Names a new object as V-REP does: `Vision_sensor`, and where there is one already `Vision_sensor0`.

@@ -1,9 +1,12 @@
 //! What is shown: messages of the user interface, dialogs, views, points, particles, curves of graphs.
 
-use scene::Data;
+use scene::{Data, numbers};
 
 use crate::dispatch::Call;
 use crate::functions::{Answer, Function};
+
+/// More than particles have.
+const MOST_PARAMETERS: f64 = 64.0;
 
 /// The functions by their names in the table of symbols.
 pub(super) const FUNCTIONS: &[(&str, Function)] = &[
@@ -60,8 +63,16 @@ fn show_points(call: &Call<'_>) -> Answer {
 /// Parameters: kind, size, density, its parameters, life time, count, colours.
 fn add_particles(call: &Call<'_>) -> Answer {
     let mut args = call.args[..6].to_vec();
-    // How long the list behind the address is only the kind of particles says.
-    args[3] = Data::Nil;
+    // The list begins with the number of pairs that follow.
+    args[3] = match call.optional_at::<f32>(3, 1)?.as_deref() {
+        Some([count]) => {
+            let pairs = numbers::index(f64::from(*count).clamp(0.0, MOST_PARAMETERS));
+            call.numbers_at(3, 1 + 2 * pairs)?
+        }
+        _ => Data::Nil,
+    };
+    args.extend([call.arg(6).clone(), Data::Nil]);
+    args.extend([8, 9].map(|place| call.arg(place).clone()));
     call.frame.host().call("sim.addParticleObject", &args)
 }
 

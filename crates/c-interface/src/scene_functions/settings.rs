@@ -56,6 +56,7 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("tree.get", configuration),
     ("tree.set", set_configuration),
     ("drawing.add", add_drawing_item),
+    ("particle.add", add_particle),
 ];
 
 fn set_text(call: &Call<'_>) -> Answer {
@@ -142,21 +143,28 @@ fn set_configuration(call: &Call<'_>) -> Answer {
     call.frame.host().call("sim.setConfigurationTree", &args)
 }
 
-/// An item has as many numbers as the kind of drawing object says. NULL removes all.
 fn add_drawing_item(call: &Call<'_>) -> Answer {
-    let drawing = Data::Int(call.integer_at(0));
-    let mut args = vec![drawing.clone()];
+    let size = "swanilda.library.drawingItemSize";
+    add_item(call, size, "sim.addDrawingObjectItem")
+}
+
+fn add_particle(call: &Call<'_>) -> Answer {
+    let size = "swanilda.library.particleItemSize";
+    add_item(call, size, "sim.addParticleObjectItem")
+}
+
+/// An item has as many numbers as the type of its object says. NULL removes all.
+fn add_item(call: &Call<'_>, size: &str, function: &str) -> Answer {
+    let object = Data::Int(call.integer_at(0));
+    let mut args = vec![object.clone()];
     if !call
         .values
         .get(1)
         .is_none_or(|value| value.address.is_null())
     {
-        let size = call
-            .frame
-            .host()
-            .call("swanilda.library.drawingItemSize", &[drawing])?;
+        let size = call.frame.host().call(size, &[object])?;
         let size = size.first().and_then(Data::as_f64).unwrap_or_default();
         args.push(call.numbers_at(1, numbers::index(size))?);
     }
-    call.frame.host().call("sim.addDrawingObjectItem", &args)
+    call.frame.host().call(function, &args)
 }

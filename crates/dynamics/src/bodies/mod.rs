@@ -301,6 +301,12 @@ impl Body {
         self.surface.linear_damping != 0.0 || self.surface.angular_damping != 0.0
     }
 
+    /// Whether it moves when particles hit it that collide with those bits of the global mask.
+    pub(super) fn is_pushed_by(&self, mask: u8) -> bool {
+        let collides = u16::from(mask) << 8 & self.surface.mask != 0;
+        self.build.dynamic && self.build.respondable && collides
+    }
+
     /// Whether the engine still has the body.
     pub(super) fn pose(&self, world: &World) -> Option<Pose> {
         world

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::particles::Particles;
 use super::{DrawingObject, DrawingStyle};
 use crate::{Handle, Scene, SceneError, SceneResult};
 
@@ -10,16 +11,39 @@ use crate::{Handle, Scene, SceneError, SceneResult};
 pub struct Drawings {
     by_handle: BTreeMap<i64, DrawingObject>,
     created: i64,
+    particles: Particles,
     /// Number of the last change: those who copy drawing objects compare it with what they saw.
     last_change: u64,
 }
 
 impl Drawings {
-    /// The drawing objects with their handles, in the order of their creation.
+    /// The drawing objects with their handles, in the order of their creation; then what is drawn of particles, with negative handles.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &DrawingObject)> {
         self.by_handle
             .iter()
             .map(|(handle, drawing)| (*handle, drawing))
+            .chain(self.particles.drawn())
+    }
+
+    /// The particle objects.
+    pub fn particles(&self) -> &Particles {
+        &self.particles
+    }
+
+    /// The particle objects, to emit and to move particles; [`draw_particles`](Self::draw_particles) shows the change.
+    pub fn particles_mut(&mut self) -> &mut Particles {
+        &mut self.particles
+    }
+
+    /// Draws the particles where they are.
+    pub fn draw_particles(&mut self) {
+        self.particles.draw(&mut self.last_change);
+    }
+
+    /// Removes the particles, at the end of a simulation.
+    pub(crate) fn clear_particles(&mut self) {
+        self.particles.iter_mut().for_each(|object| object.clear());
+        self.draw_particles();
     }
 
     /// The drawing object with that handle.
@@ -87,6 +111,7 @@ impl Drawings {
         self.last_change += 1;
         self.by_handle
             .retain(|_, drawing| drawing.owner != Some(owner));
+        self.particles.forget_owner(owner);
     }
 }
 

@@ -4,6 +4,7 @@
 mod container;
 mod items;
 pub mod options;
+pub mod particles;
 
 use nalgebra::Point3;
 

@@ -106,6 +106,7 @@ impl Scene {
     /// during the run return to their first state; other new objects stay as they are.
     pub fn restore_initial_state(&mut self) {
         self.in_run = false;
+        self.drawings.clear_particles();
         let objects = self.all_breadth_first();
         let unrestored = self.not_reset(&objects);
         self.objects.moves_mut().measurements.forget();
