@@ -10,14 +10,14 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::RigidBody;
 use scene::shape::Fluid;
 
-/// Force at the centre of mass and torque on a body, in the world's frame: N, N m.
-pub(super) fn drag(fluid: Fluid, rigid: &RigidBody, step: f64) -> [Vector; 2] {
+/// Force at the centre of mass and torque on a body in a fluid of which all moves with `wind`, in the world's frame: N, N m.
+pub(super) fn drag(fluid: Fluid, wind: Vector, rigid: &RigidBody, step: f64) -> [Vector; 2] {
     let properties = rigid.mass_properties();
     let moments = properties.local_mprops.principal_inertia();
     let frame = rigid.position().rotation * properties.local_mprops.principal_inertia_local_frame;
     let mass = rigid.mass();
     let com = rigid.center_of_mass();
-    let linear = frame.inverse() * rigid.velocity_at_point(com);
+    let linear = frame.inverse() * (rigid.velocity_at_point(com) - wind);
     let angular = frame.inverse() * rigid.angvel();
     let Some(edges) = edges(mass, moments) else {
         return [Vector::ZERO; 2];

@@ -10,6 +10,7 @@
 //! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
 //! - `ropes`: ropes and cables, moved by the crate `soft` before the mechanisms are solved.
 //! - `particles`: small spheres, moved after the bodies.
+//! - `adhesion`, `tendons`: forces between bodies that MuJoCo's parameters ask for.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
@@ -17,6 +18,7 @@
 //! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
 
 mod actuators;
+mod adhesion;
 mod bodies;
 mod contact_log;
 mod contacts;
@@ -34,6 +36,7 @@ mod particles;
 mod plan;
 mod report;
 mod ropes;
+mod tendons;
 #[cfg(test)]
 mod tests;
 mod world;
@@ -58,9 +61,11 @@ use particles::Particles;
 use plan::Plan;
 pub use report::Trigger;
 use ropes::{Response, Ropes};
+use tendons::Tendons;
 use world::World;
 
 use scene::joint::{Joint, JointMode};
+use scene::parameters::mujoco::Surrounding;
 use scene::{Field, Handle, Mark, Scene, Topics};
 
 /// Changes that can alter bodies and constraints.
@@ -86,6 +91,11 @@ pub struct Dynamics {
     mechanisms: Mechanisms,
     ropes: Ropes,
     particles: Particles,
+    /// Whether bodies that cling have been pulled in this sub-step.
+    have_clung: bool,
+    tendons: Tendons,
+    /// For which the plan was made.
+    surrounding: Surrounding,
     contacts: ContactLog,
     frozen: Frozen,
     /// Roots too far away to be simulated.
@@ -212,6 +222,7 @@ impl Dynamics {
             return Ok(None);
         }
         let sub_steps = settings.sub_steps(time_step);
+        self.note_surrounding(settings.surrounding());
         self.update_plan(scene);
         let has_bodies = self.bodies.iter().any(|(_, body)| body.build.dynamic);
         if self.ropes.is_empty() && !has_bodies && scene.drawings().particles().is_empty() {
@@ -229,6 +240,22 @@ impl Dynamics {
             step: time_step / f64::from(sub_steps),
         });
         Ok(self.call)
+    }
+
+    /// What surrounds all bodies is a part of the plan.
+    fn note_surrounding(&mut self, surrounding: Surrounding) {
+        let before = std::mem::replace(&mut self.surrounding, surrounding);
+        if before == surrounding {
+            return;
+        }
+        self.has_missed_changes = true;
+        self.bodies.wind = surrounding.wind;
+        if let Some(world) = &mut self.world {
+            world
+                .bodies
+                .iter_mut()
+                .for_each(|(_, rigid)| rigid.wake_up(true));
+        }
     }
 
     /// Makes a new plan if its inputs have changed.
@@ -256,6 +283,7 @@ impl Dynamics {
         let_sleep(&self.bodies, &self.links, world);
         self.ropes
             .apply_plan(plan.ropes, &self.bodies, world, scene);
+        self.tendons.apply_plan(plan.tendons, &self.bodies, world);
         self.contacts.forget_resting();
         self.is_stepped = false;
         self.mechanisms.rebuild(
@@ -356,17 +384,24 @@ impl Dynamics {
     ) -> Option<SubStep> {
         let mut world = self.world.take()?;
         let call = self.call?;
+        let gravity = gravity_of(scene);
         // Nobody else can have changed the forces since the first sub-step.
-        let was_pushed = self.ropes.have_pushed || self.particles.have_pushed;
+        let was_pushed = self.ropes.have_pushed
+            || self.particles.have_pushed
+            || self.have_clung
+            || self.tendons.have_pulled;
         let is_pushed = self.bodies.are_in_fluid || was_pushed;
         if sub_step == 1 || script_access.possible || is_pushed {
-            self.bodies.apply_forces(&mut world, scene, call.step);
+            self.bodies
+                .apply_forces(&mut world, scene, gravity, call.step);
         }
         self.particles.push(&mut world, call.step);
+        self.tendons
+            .pull(&self.bodies, &mut world, gravity, call.step);
+        self.have_clung = adhesion::pull(&self.bodies, &mut world, &verdicts);
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
-        let gravity = gravity_of(scene);
         self.move_ropes(&mut world, gravity, call, sub_step, &verdicts);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
@@ -374,6 +409,7 @@ impl Dynamics {
             && !script_access.possible
             && self.ropes.is_empty()
             && scene.drawings().particles().is_empty()
+            && !self.bodies.are_clinging
             && self.mechanisms.know_surroundings(&mut world);
         if !is_known {
             contacts::set_hooks(&mut world, &verdicts, &apart);
@@ -511,8 +547,9 @@ fn detect_new(bodies: &Bodies, mechanisms: &Mechanisms, world: &mut World, gravi
 
 /// Gravity of the scene, m/s2; none where it is no number.
 fn gravity_of(scene: &Scene) -> [f64; 3] {
-    let gravity = scene.settings().dynamics.gravity.map(f64::from);
-    if gravity.iter().all(|x| x.is_finite()) {
+    let settings = &scene.settings().dynamics;
+    let gravity = settings.gravity.map(f64::from);
+    if settings.surrounding().has_gravity && gravity.iter().all(|x| x.is_finite()) {
         gravity
     } else {
         [0.0; 3]

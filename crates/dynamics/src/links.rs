@@ -179,11 +179,13 @@ pub(super) fn apply_plan(
             Some(link) => link,
             None => Link::insert(plan, ends, world),
         };
-        let engine = scene.settings().dynamics.engine.engine;
+        let settings = &scene.settings().dynamics;
+        let (engine, surrounding) = (settings.engine.engine, settings.surrounding());
         let actuation = scene.object(handle).map(|object| object.actuation(engine));
-        link.actuation = actuation.unwrap_or_default();
+        let actuation = actuation.unwrap_or_default();
+        link.actuation = actuation.map(|actuation| actuation.within(&surrounding));
         if let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) {
-            link.set_limits(joint, world);
+            link.set_limits(joint, surrounding.has_joint_limits, world);
             if link.fresh {
                 link.motion.position =
                     joint.position + wrap_angle(link.motion.position - joint.position);
@@ -241,12 +243,13 @@ impl Link {
         }
     }
 
-    fn set_limits(&mut self, joint: &Joint, world: &mut World) {
+    fn set_limits(&mut self, joint: &Joint, are_on: bool, world: &mut World) {
         let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false))
         else {
             return;
         };
-        let has_stops = !joint.cyclic
+        let has_stops = are_on
+            && !joint.cyclic
             && (self.plan.kind == LinkKind::Prismatic || joint.range < MAX_STOP_RANGE);
         self.stops = has_stops.then_some([joint.min, joint.min + joint.range]);
         match self.stops {

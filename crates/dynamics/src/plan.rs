@@ -3,6 +3,8 @@
 //! A function of the scene alone, without rapier. A plan is recomputed when its inputs change, and compared with the bodies and
 //! constraints that exist.
 
+mod tendon;
+
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -14,8 +16,10 @@ use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
 use scene::shape::rope::{Pin, Rope};
-use scene::shape::{Fluid, Primitive, Shape};
+use scene::shape::{Fluid, MovingSurface, Primitive, Shape};
 use scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
+pub(super) use tendon::TendonPlan;
+use tendon::tendon;
 
 /// `sim.physics_mujoco`.
 /// Root shapes further from the origin than this are out of service with their trees, metres.
@@ -30,6 +34,8 @@ pub(super) struct Plan {
     pub links: BTreeMap<Handle, LinkPlan>,
     /// Ropes, base-to-tip.
     pub ropes: Vec<(Handle, RopePlan)>,
+    /// Tendons between dummies.
+    pub tendons: Vec<TendonPlan>,
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
 }
@@ -99,6 +105,12 @@ pub(super) struct Surface {
     pub linear_damping: f64,
     pub angular_damping: f64,
     pub fluid: Option<Fluid>,
+    /// Part of its weight by which it is lifted.
+    pub gravity_compensation: f64,
+    /// Force with which it clings to what it touches, N.
+    pub adhesion: f64,
+    /// How the surface of a static body moves, in the frame of its shape.
+    pub motion: Option<MovingSurface>,
 }
 
 /// How the selected engine combines the frictions of two shapes.
@@ -168,6 +180,7 @@ impl Plan {
         let mut plan = Self {
             bodies,
             ropes: ropes.collect(),
+            tendons: Vec::new(),
             links: BTreeMap::new(),
             far,
         };
@@ -176,6 +189,8 @@ impl Plan {
             .iter()
             .map(|(h, body)| (*h, body.build.dynamic))
             .collect();
+        let tendons = order.iter().map(|&handle| tendon(scene, handle, &roles));
+        plan.tendons = tendons.flatten().collect();
         for handle in order {
             if let Some(link) = link(scene, handle, &roles) {
                 plan.links.insert(handle, link);
@@ -213,12 +228,28 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     };
     Some(BodyPlan {
         build,
-        surface: Surface {
-            fluid: object.fluid(),
-            ..surface(scene, handle, shape)
-        },
+        surface: among(scene, object, surface(scene, handle, shape)),
         asleep: dynamics.start_asleep,
     })
+}
+
+/// The surface of a body with what surrounds it, and with what MuJoCo's parameters say of it.
+fn among(scene: &Scene, object: &Object, mut surface: Surface) -> Surface {
+    let dynamics = &scene.settings().dynamics;
+    let surrounding = dynamics.surrounding();
+    surface.fluid = object.fluid().or(surrounding.fluid);
+    surface.motion = object.moving_surface();
+    let counts = dynamics.engine.engine == Engine::Mujoco || object.is_of_mujoco();
+    let Some(material) = object.shape().ok().map(|shape| &shape.material) else {
+        return surface;
+    };
+    if counts {
+        surface.adhesion = material.adhesion();
+        if surrounding.has_passive_forces {
+            surface.gravity_compensation = material.gravity_compensation();
+        }
+    }
+    surface
 }
 
 /// A shape that bends: one that is not static, and says that it is a rope.
@@ -256,7 +287,8 @@ impl PartForm {
 fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
     let selected = scene.settings().dynamics.engine;
     let (friction, restitution) = shape.material.contact_values(selected);
-    let suspended = shape.dynamics.respondable_suspend_count > 0;
+    let has_contacts = scene.settings().dynamics.surrounding().has_contacts;
+    let suspended = shape.dynamics.respondable_suspend_count > 0 || !has_contacts;
     Surface {
         root: scene.collision_root_of(handle),
         mask: if suspended {
@@ -279,6 +311,9 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,
         fluid: None,
+        gravity_compensation: 0.0,
+        adhesion: 0.0,
+        motion: None,
     }
 }
 

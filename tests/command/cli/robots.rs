@@ -241,6 +241,51 @@ function sysCall_afterSimulation() print(string.format('down at %.4f', down)) en
     }
 }
 
+/// A box that clings to the ceiling until it is told not to, a ball of whose weight half is compensated, and a box that a belt carries; with Bullet as the engine, and from a model file too.
+#[test]
+fn bodies_of_mjcf_cling_float_and_are_carried() {
+    const BODIES: &str = r#"<mujoco><worldbody>
+        <body name="ceiling" pos="0 0 2"><geom type="box" size="1 1 .1"/></body>
+        <body name="hung" pos="0 0 1.8"><freejoint/><geom type="box" size=".1 .1 .1" mass="1"/></body>
+        <body name="ball" pos="0 5 9" gravcomp=".5"><freejoint/><geom size=".1" mass="1"/></body>
+        <body name="belt" pos="0 10 0" euler="0 0 90"><geom type="box" size="3 1 .1" surfacevel=".5 0 0 0 0 0"/></body>
+        <body name="parcel" pos="0 10 .2"><freejoint/><geom type="box" size=".1 .1 .1" mass="1"/></body>
+        </worldbody><actuator><adhesion body="hung" gain="10" ctrlrange="0 3"/></actuator></mujoco>"#;
+    const LOOK: &str = "sim = require 'sim'
+local function body(name) return sim.getObject('/' .. name .. '_respondable') end
+function sysCall_init()
+    sim.loadModel(sim.getNamedStringParam('model'))
+    sim.setFloatProperty(body('hung'), 'mujoco.adhesionctrl', 2)
+end
+function sysCall_sensing()
+    hangs = sim.getObjectPosition(body('hung'))[3]
+    down = -sim.getObjectVelocity(body('ball'))[3]
+    along = sim.getObjectVelocity(body('parcel'))[2]
+end
+function sysCall_afterSimulation() print(string.format('%.3f %.3f %.3f', hangs, down, along)) end";
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    fs::write(folder.join("bodies.xml"), BODIES).expect("our own folder is writable");
+    fs::write(folder.join("look.lua"), LOOK).expect("our own folder is writable");
+    said_by(folder, &["convert", "bodies.xml", "bodies.ttm"]);
+    for model in ["model=bodies.xml", "model=bodies.ttm"] {
+        let run = [
+            "run", "look.lua", "--empty", "--steps", "20", "-q", "-D", model,
+        ];
+        let said = said_by(folder, &run);
+        let numbers = said.split_whitespace().map(str::parse::<f64>);
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().unwrap_or_default();
+        let [hangs, down, along] = numbers[..] else {
+            panic!("{model}: {said}");
+        };
+        // All are lifted so that they are on the ground, by what the lowest is under it.
+        let seconds = down / 4.905;
+        assert!((0.9..1.2).contains(&seconds), "{model}: {said}");
+        assert!((along - 0.5).abs() < 1e-3, "{model}: {said}");
+        assert!((hangs - 1.8).abs() < 0.2, "{model}: {said}");
+    }
+}
+
 #[test]
 fn a_free_base_that_falls_over_is_told_and_can_be_fixed() {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");

@@ -123,6 +123,8 @@ const DYNAMICS: Rooms = &[
         &["bodies", "contacts", "convert", "near", "plan", "world"],
     ),
     ("particles", &["bodies", "convert", "world"]),
+    ("adhesion", &["bodies", "contacts", "near", "world"]),
+    ("tendons", &["bodies", "convert", "plan", "world"]),
     (
         "report",
         &["bodies", "convert", "links", "load", "plan", "world"],

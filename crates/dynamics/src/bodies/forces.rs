@@ -11,9 +11,15 @@ use crate::fluid::drag;
 use crate::world::World;
 
 impl Bodies {
-    /// Applies the forces of scripts and of fluids, in place of those of the last sub-step of `step` seconds. rapier processes every body that was changed, so
+    /// Applies the forces of scripts, of fluids and of what compensates gravity, in place of those of the last sub-step of `step` seconds. rapier processes every body that was changed, so
     /// bodies without forces are left alone.
-    pub(crate) fn apply_forces(&self, world: &mut World, scene: &Scene, step: f64) {
+    pub(crate) fn apply_forces(
+        &self,
+        world: &mut World,
+        scene: &Scene,
+        gravity: [f64; 3],
+        step: f64,
+    ) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
             let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else {
                 continue;
@@ -21,8 +27,10 @@ impl Bodies {
             let Some(rigid) = world.bodies.get(body.rigid) else {
                 continue;
             };
-            let (of_script, of_fluid) = (script_forces(shape), body.fluid_forces(rigid, step));
+            let of_script = script_forces(shape);
+            let of_fluid = body.fluid_forces(rigid, self.wind, step);
             let [force, torque] = [0, 1].map(|part| of_script[part] + of_fluid[part]);
+            let force = force + body.lift(rigid, gravity);
             let is_forced = force != Vector::ZERO || torque != Vector::ZERO;
             if !is_forced && is_free(rigid) {
                 continue;
@@ -39,9 +47,17 @@ impl Bodies {
 }
 
 impl Body {
-    fn fluid_forces(&self, rigid: &RigidBody, step: f64) -> [Vector; 2] {
-        let fluid = self.surface.fluid;
-        fluid.map_or([Vector::ZERO; 2], |fluid| drag(fluid, rigid, step))
+    fn fluid_forces(&self, rigid: &RigidBody, wind: [f64; 3], step: f64) -> [Vector; 2] {
+        let drag = |fluid| drag(fluid, to_vector(wind), rigid, step);
+        self.surface.fluid.map_or([Vector::ZERO; 2], drag)
+    }
+
+    /// What compensates a part of its weight.
+    fn lift(&self, rigid: &RigidBody, gravity: [f64; 3]) -> Vector {
+        match self.surface.gravity_compensation {
+            0.0 => Vector::ZERO,
+            part => to_vector(gravity) * (-part * rigid.mass()),
+        }
     }
 }
 

@@ -46,6 +46,10 @@ pub(super) struct Bodies {
     sweeping: Vec<usize>,
     /// Whether one is in a fluid: forces change from sub-step to sub-step.
     pub are_in_fluid: bool,
+    /// Velocity of the fluid, m/s.
+    pub wind: [f64; 3],
+    /// Whether one clings to what it touches.
+    pub are_clinging: bool,
 }
 
 /// A shape's body in the engine.
@@ -108,6 +112,7 @@ impl Bodies {
             .map(|(place, (shape, _))| (*shape, place))
             .collect();
         self.are_in_fluid = plan.iter().any(|(_, plan)| plan.surface.fluid.is_some());
+        self.are_clinging = plan.iter().any(|(_, plan)| plan.surface.adhesion > 0.0);
         let stay = staying(&plan, &old, world, scene);
         let made = plan.iter().zip(&stay).filter(|(_, stays)| !**stays);
         make_forms(made.map(|((_, plan), _)| &plan.build), forms);
@@ -265,6 +270,9 @@ impl Body {
         if self.surface == surface {
             return self;
         }
+        if self.surface.motion.is_some() && surface.motion.is_none() {
+            self.drift = Velocity::default();
+        }
         self.surface = surface;
         let surface = &self.surface;
         let tag = Tag::new(shape, &self.surface);
@@ -305,6 +313,11 @@ impl Body {
     pub(super) fn is_pushed_by(&self, mask: u8) -> bool {
         let collides = u16::from(mask) << 8 & self.surface.mask != 0;
         self.build.dynamic && self.build.respondable && collides
+    }
+
+    /// Force with which it clings to what it touches, N.
+    pub(super) fn adhesion(&self) -> f64 {
+        self.surface.adhesion
     }
 
     /// Whether the engine still has the body.

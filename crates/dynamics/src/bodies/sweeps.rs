@@ -3,7 +3,7 @@
 use geometry::Finite;
 use geometry::pose::interpolate;
 use rapier3d_f64::prelude::RigidBodyType;
-use scene::shape::Velocity;
+use scene::shape::{MovingSurface, Velocity};
 use scene::{Pose, Scene};
 
 use super::{Bodies, Body};
@@ -27,6 +27,9 @@ impl Bodies {
             .enumerate()
             .filter(|(_, (_, body))| !body.build.dynamic)
         {
+            if let (Some(motion), Ok(pose)) = (body.surface.motion, scene.world_pose(*shape)) {
+                body.drift = turned(motion, &pose);
+            }
             body.stop_drift(world);
             let (Some(held), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else {
                 continue;
@@ -94,6 +97,15 @@ impl Body {
             // rapier wakes what touches the body.
             rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
         }
+    }
+}
+
+/// A motion in the frame of a shape, along the axes of the world.
+fn turned(motion: MovingSurface, pose: &Pose) -> Velocity {
+    let turn = |v: [f64; 3]| (pose.rotation * nalgebra::Vector3::from(v)).into();
+    Velocity {
+        linear: turn(motion.linear),
+        angular: turn(motion.angular),
     }
 }
 

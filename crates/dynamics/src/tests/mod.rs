@@ -9,6 +9,7 @@ mod free_bodies;
 mod joints;
 mod loops;
 mod masses;
+mod mujoco;
 mod particles;
 mod random_trees;
 mod roles;

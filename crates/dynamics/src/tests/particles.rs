@@ -98,13 +98,12 @@ fn falling_particles_reach_their_terminal_speed() {
 /// Without gravity: v = v0 exp(-c t / m), and v = v0 / (1 + c v0 t / m).
 #[test]
 fn drag_slows_down_as_its_law_says() {
-    let laws: [(f64, fn(f64) -> f64); 2] = [(6.0, |t| (-t).exp()), (7.0, |t| 1.0 / (1.0 + t))];
-    for (parameter, law) in laws {
+    for (parameter, speed) in [(6.0, (-1.0f64).exp()), (7.0, 0.5)] {
         let flags = ParticleFlags::IGNORES_GRAVITY;
         let (mut bench, source) = source(flags, &[1.0, parameter, MASS]);
         emit(&mut bench, source, [0.0; 3], [1.0, 0.0, 0.0]);
         bench.run(20);
-        near(only(&bench, source).velocity[0], law(1.0), 4e-3);
+        near(only(&bench, source).velocity[0], speed, 4e-3);
     }
 }
 

@@ -58,6 +58,9 @@ impl Import<'_> {
                 let text = Data::text(&self.model.fluid.to_string());
                 self.set_custom_data(shape, FLUID, (ValueType::String, text))?;
             }
+            if let Some(shape) = shape {
+                self.set_surface(link, shape)?;
+            }
             self.nodes[link] = Node {
                 carrier: shape.or(joint),
                 depth,
@@ -66,7 +69,7 @@ impl Import<'_> {
         Ok(())
     }
 
-    fn set_custom_data(
+    pub(super) fn set_custom_data(
         &mut self,
         object: Handle,
         name: &'static str,

@@ -16,12 +16,13 @@ mod read;
 mod ros;
 mod sensors;
 mod shapes;
+mod surfaces;
 
 use std::collections::BTreeMap;
 
 use bitflags::bitflags;
 use robot_description::Robot;
-use robot_description::mjcf::{Actuator, Equality, Site};
+use robot_description::mjcf::{Actuator, Adhesion, Equality, Site};
 
 use super::scene_file::save;
 use super::ttt::File;
@@ -32,7 +33,7 @@ use place::lift_to_ground;
 pub use robot_description::urdf::OF_GAZEBO;
 pub use ros::RosRobot;
 use scene::object::dummy::Dummy;
-use scene::shape::Fluid;
+use scene::shape::{Fluid, MovingSurface};
 use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 
 bitflags! {
@@ -105,6 +106,11 @@ struct Description {
     touching: Option<Vec<[usize; 2]>>,
     /// The fluid that the bodies are in.
     fluid: Fluid,
+    adhesions: Vec<Adhesion>,
+    /// Links of whose weight a part is compensated.
+    compensations: Vec<(usize, f64)>,
+    /// Links whose surface moves, and how, in their frames.
+    moving_surfaces: Vec<(usize, MovingSurface)>,
 }
 
 /// What an import added.

@@ -10,7 +10,7 @@ use super::bases::held_links;
 use super::mesh_files::{MeshFiles, variable};
 use super::{Description, RobotFile, RobotFormat};
 use permissions::Permissions;
-use scene::shape::Fluid;
+use scene::shape::{Fluid, MovingSurface};
 
 impl RobotFormat {
     /// The format that a file's name says, or its beginning.
@@ -299,18 +299,34 @@ fn of_mjcf(model: mjcf::Model) -> Description {
         sites,
         equalities,
         touching,
+        adhesions,
+        compensations,
+        moving_surfaces,
         fluid: [density, viscosity],
         ..
     } = model;
     Description {
         robot,
         fluid: Fluid { density, viscosity },
+        adhesions,
+        compensations,
+        moving_surfaces: moving_surfaces
+            .into_iter()
+            .map(|(link, numbers)| (link, of_numbers(numbers)))
+            .collect(),
         touching,
         fixed,
         actuators: Some(actuators),
         sites,
         equalities,
         ..Description::default()
+    }
+}
+
+fn of_numbers([x, y, z, a, b, c]: [f64; 6]) -> MovingSurface {
+    MovingSurface {
+        linear: [x, y, z],
+        angular: [a, b, c],
     }
 }
 

@@ -15,7 +15,9 @@ pub fn read(
 ) -> Vec<Actuator> {
     let joints = Names::new(robot.joints.iter().map(|joint| joint.name.as_str()));
     let mut actuators = Vec::new();
-    for element in root.named("actuator").flat_map(|part| &part.children) {
+    let elements = root.named("actuator").flat_map(|part| &part.children);
+    // Those of bodies are read elsewhere.
+    for element in elements.filter(|element| element.name != "adhesion") {
         let attributes = document.defaults.of(element, MAIN, report);
         match actuator(&attributes, document, (robot, &joints), report) {
             Ok(actuator) => actuators.push(actuator),

@@ -177,6 +177,7 @@ impl<'a> Builder<'a> {
             self.add_moved(element, link, outer.link, pose, joints)
         };
         self.note_place(index, outer.link, moves);
+        self.note_compensation(&attributes, index);
         let place = Place {
             link: index,
             ..inner

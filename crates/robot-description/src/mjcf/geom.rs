@@ -42,6 +42,9 @@ impl Builder<'_> {
         }
         let material = self.document.material(attributes, &mut self.report);
         let (touched_pose, touched) = as_touched(attributes, &mut self.report, pose, &geometry);
+        if touches {
+            self.note_motion(attributes, place.link, &pose);
+        }
         let link = &mut self.model.robot.links[place.link];
         if touches {
             let part = link.collisions.len();

@@ -18,6 +18,7 @@ mod geom;
 mod inertia;
 mod mesh_solid;
 mod orientation;
+mod surface;
 mod touching;
 
 use crate::model::{Link, Pose, Robot};
@@ -39,6 +40,12 @@ pub struct Model {
     pub fixed: Vec<usize>,
     /// The motors.
     pub actuators: Vec<Actuator>,
+    /// What lets bodies cling to what they touch.
+    pub adhesions: Vec<Adhesion>,
+    /// Links of whose weight a part is compensated, and which part.
+    pub compensations: Vec<(usize, f64)>,
+    /// Links that never move but whose surface does, and how, in their frames: the velocity of the origin in m/s, and the angular one in rad/s.
+    pub moving_surfaces: Vec<(usize, [f64; 6])>,
     /// The marked places.
     pub sites: Vec<Site>,
     /// What holds joints or links together beside the tree.
@@ -64,6 +71,23 @@ pub struct Actuator {
     pub range: Option<[f64; 2]>,
     /// Lowest and highest position or speed of the joint that it can be told, if it has them.
     pub control: Option<[f64; 2]>,
+    /// Its line in the file, from 1.
+    pub line: u32,
+}
+
+/// What lets a body cling to what it touches: with the gain times what it is told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adhesion {
+    /// Its name.
+    pub name: String,
+    /// The index of the link.
+    pub link: usize,
+    /// Newtons per what it is told.
+    pub gain: f64,
+    /// Lowest and highest that it can be told, if it has them.
+    pub control: Option<[f64; 2]>,
+    /// Lowest and highest force, if it has them, N.
+    pub force: Option<[f64; 2]>,
     /// Its line in the file, from 1.
     pub line: u32,
 }
@@ -205,6 +229,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
     (model.gravity, model.fluid) = (document.gravity, document.fluid);
     model.actuators = actuator::read(&root, &document, &model.robot, &mut report);
+    model.adhesions = surface::adhesions(&root, &document, &model, &mut report);
     model.equalities = equality::read(&root, &model, &mut report);
     Ok(report.finish(model))
 }

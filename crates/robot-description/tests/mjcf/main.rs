@@ -488,3 +488,55 @@ fn actuators_inherit_the_range_of_their_joint() {
         .collect();
     assert_eq!(ranges, [Some([1.5, 2.5]), Some([0.0, 1.0]), None]);
 }
+
+#[test]
+fn bodies_cling_float_and_have_belts() {
+    let text = "<mujoco><worldbody>
+        <geom name='floor' type='plane' size='5 5 1'/>
+        <body name='belt' pos='1 0 0'><geom type='box' size='1 1 1' pos='0 2 0' euler='0 0 90' surfacevel='.5 0 0 0 0 1'/></body>
+        <body name='two'><geom size='1' surfacevel='1 0 0 0 0 0'/><geom size='2'/></body>
+        <body name='ball' gravcomp='.5'><freejoint/><geom size='1' surfacevel='1 0 0 0 0 0' adhesion='3'/></body>
+        </worldbody><actuator><adhesion name='grip' body='ball' gain='4' ctrlrange='0 2' forcerange='0 6'/><adhesion body='nobody'/><adhesion/></actuator></mujoco>";
+    let parsed = read(text);
+    let model = &parsed.value;
+    let named = |name: &str| {
+        let mut links = model.robot.links.iter();
+        links.position(|link| link.name == name).expect("a link")
+    };
+    assert_eq!(model.compensations, [(named("ball"), 0.5)]);
+    let [(belt, motion)] = model.moving_surfaces[..] else {
+        panic!("{:?}", model.moving_surfaces);
+    };
+    // It turns about its own middle, two metres along y: there the surface goes along y with 0.5 m/s.
+    let expected = [2.0, 0.5, 0.0, 0.0, 0.0, 1.0];
+    assert_eq!(belt, named("belt"));
+    let close = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-12;
+    assert!(motion.iter().zip(&expected).all(close), "{motion:?}");
+    let [adhesion] = &model.adhesions[..] else {
+        panic!("{:?}", model.adhesions);
+    };
+    assert_eq!(
+        (adhesion.name.as_str(), adhesion.link),
+        ("grip", named("ball"))
+    );
+    assert_eq!(
+        (adhesion.gain, adhesion.control, adhesion.force),
+        (4.0, Some([0.0, 2.0]), Some([0.0, 6.0]))
+    );
+    let left_out = [
+        "another geom of the body",
+        "of bodies that move",
+        "adhesion of geoms",
+        "no body 'nobody'",
+        "it names no body",
+    ];
+    let warnings: Vec<String> = parsed.warnings.iter().map(ToString::to_string).collect();
+    for reason in left_out {
+        let named = |warning: &&String| warning.contains(reason);
+        assert_eq!(
+            warnings.iter().filter(named).count(),
+            1,
+            "{reason}: {warnings:?}"
+        );
+    }
+}

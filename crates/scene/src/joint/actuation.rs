@@ -8,6 +8,7 @@ use std::fmt;
 use super::{Control, Joint};
 use crate::parameters::engine::Engine;
 use crate::parameters::engine_values::element;
+use crate::parameters::mujoco::Surrounding;
 use crate::{Data, Object};
 
 /// Name of the custom data of a joint that say what its motor does: see [`Actuator`].
@@ -78,6 +79,19 @@ pub struct Actuation {
     pub passive: Passive,
     /// What its motors do, if not what CoppeliaSim's motor does; none otherwise.
     pub actuators: Actuators,
+}
+
+impl Actuation {
+    /// What of it acts where MuJoCo's switches let it.
+    pub fn within(mut self, surrounding: &Surrounding) -> Self {
+        if !surrounding.has_passive_forces {
+            (self.passive.stiffness, self.passive.damping) = (0.0, 0.0);
+        }
+        if !surrounding.has_joint_friction {
+            self.passive.friction = 0.0;
+        }
+        self
+    }
 }
 
 impl ActuatorKind {

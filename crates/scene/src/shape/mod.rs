@@ -6,6 +6,7 @@ mod fluid;
 pub(crate) mod group;
 pub(crate) mod hull_points;
 pub(crate) mod mesh_owners;
+mod moving_surface;
 pub mod options;
 pub(crate) mod primitives;
 pub mod reshape;
@@ -15,6 +16,7 @@ use std::rc::Rc;
 
 pub use fluid::{FLUID, Fluid};
 use geometry::{BoundingBox, MassProperties, Mesh, PrimitiveKind};
+pub use moving_surface::{MovingSurface, SURFACE};
 
 use super::appearance::colour::Colour;
 use super::appearance::texture_mapping::TextureMapping;
