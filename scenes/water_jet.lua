@@ -49,3 +49,14 @@ function sysCall_actuation()
         sim.addParticleObjectItem(water, item)
     end
 end
+
+local steps = 0
+
+function sysCall_sensing()
+    steps = steps + 1
+    if steps % 10 == 0 then
+        local axis = sim.getObjectMatrix(barrel)[11] -- the height of its axis
+        local lean = math.deg(math.acos(math.max(-1, math.min(1, axis))))
+        print(string.format('After %.2f s the barrel leans by %.0f degrees.', sim.getSimulationTime(), lean))
+    end
+end
