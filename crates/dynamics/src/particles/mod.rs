@@ -119,7 +119,11 @@ impl Pushes {
         of.copied().unwrap_or([Vector::ZERO; 2])
     }
 
+    /// What is no number is left out: a body would be stopped by it.
     fn add(&mut self, body: RigidBodyHandle, impulse: Vector, moment: Vector) {
+        if !impulse.is_finite() || !moment.is_finite() {
+            return;
+        }
         let sum = self.0.entry(RigidBodyKey::new(body));
         let sum = sum.or_insert([Vector::ZERO; 2]);
         sum[0] += impulse;

@@ -338,6 +338,21 @@ fn nobody_has_to_look() {
     }
 }
 
+/// Nor do particles whose numbers are beyond all measure stop a body.
+#[test]
+fn bodies_survive_what_particles_cannot_be() {
+    let (mut bench, source) = source(RESPONDABLE, &[1.0, 1.0, 1.0]);
+    bench.gravity(0.0);
+    let body = bench.shape([0.1; 3], [0.0, 0.0, 0.0], 1.0, true, true);
+    for speed in [1e200, 1e300, -1e308, f64::MAX] {
+        emit(&mut bench, source, [0.01, 0.0, 0.0], [speed, speed, 0.0]);
+        bench.run(2);
+    }
+    assert_eq!(all(&bench, source), []);
+    assert!(bench.at(body).iter().all(|x| x.is_finite()));
+    assert!(bench.dynamics.take_frozen().is_empty());
+}
+
 #[test]
 fn what_leaves_the_world_is_gone() {
     let (mut bench, source) = source(RESPONDABLE, &[]);

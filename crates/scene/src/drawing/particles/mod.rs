@@ -66,8 +66,8 @@ pub struct ParticleObject {
 impl ParticleObject {
     /// Largest capacity, whatever a script asks for.
     const MAX_ITEMS: usize = 1_000_000;
-    /// Smallest diameter (metres) and density (kg/m³).
-    const SMALLEST: [f64; 2] = [1e-6, 1e-6];
+    /// Smallest and largest diameter (metres), and density (kg/m³).
+    const BOUNDS: [[f64; 2]; 2] = [[1e-6, 1e3], [1e-6, 1e6]];
 
     fn new(mut style: ParticleStyle, owner: i64) -> Self {
         style.max_items = style.max_items.clamp(1, Self::MAX_ITEMS);
@@ -159,7 +159,7 @@ impl ParticleObject {
     }
 
     fn usable(numbers: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|i| numbers[i].max(Self::SMALLEST[i]))
+        [0, 1].map(|i| numbers[i].max(Self::BOUNDS[i][0]).min(Self::BOUNDS[i][1]))
     }
 
     /// Removes all particles.

@@ -71,6 +71,8 @@ fn what_is_no_particle_is_refused() {
     assert!(!object.add(&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0, 1.0]));
     assert!(object.add(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]));
     assert!(object.items[0].size > 0.0 && object.items[0].mass > 0.0);
+    assert!(object.add(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e300]));
+    assert!(object.items[1].mass.is_finite());
 }
 
 #[test]
