@@ -26,7 +26,7 @@ def drag(browser, start, by, steps=5):
 
 def key(browser, name, *held):
     """One key, with others held."""
-    code, number = CODES.get(name, ("Key" + name.upper(), ord(name.upper()) if len(name) == 1 else 0))
+    code, number = CODES.get(name, ("Key" + name.upper(), ord(name.upper())) if name.isalnum() and len(name) == 1 else ("", 0))
     modifiers = sum(MODIFIERS[each] for each in held)
     text = {"text": name} if len(name) == 1 and not modifiers & 7 else {"text": "\r"} if name == "Enter" else {}
     common = {"key": name, "code": code, "windowsVirtualKeyCode": number, "modifiers": modifiers}

@@ -87,6 +87,7 @@ def names_are_completed(browser):
     write(browser, "\nsim.getObjectPosi")
     options = "[...document.querySelectorAll('.cm-tooltip-autocomplete li')].map(option => option.textContent)"
     browser.shows(f"{options}[0] == 'getObjectPosition'", "the completion")
+    is_accessible(browser)
     browser.shows("document.querySelector('.cm-description code')?.textContent.startsWith('float[3] position = sim.getObjectPosition(')", "the signature")
     same("its sentence", browser.evaluate("document.querySelector('.cm-description p').textContent"), "Position of an object")
     accept(browser)

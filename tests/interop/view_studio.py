@@ -11,6 +11,7 @@ import tempfile
 
 from websockets.sync.client import connect
 
+from access import is_accessible
 from browser import WITH_WEBGL, Browser, program
 from compare import same
 from simulator import Simulator
@@ -28,6 +29,11 @@ def gizmo_moves_and_turns(page, box):
     page.key("m")
     grip = "document.querySelector('[data-handle=\"move x\"]')"
     page.shows(f"{grip}.getAttribute('d')", "the gizmo")
+    is_accessible(page.browser)
+    page.key("a")
+    page.shows("!document.querySelector('.add-panel').hidden", "the menu")
+    is_accessible(page.browser)
+    page.key("Escape")
     page.evaluate("swanilda.lookAlong(Math.PI / 2, -Math.PI / 2)")
     page.rests()
     for _ in range(6):
@@ -169,8 +175,30 @@ def builds_a_robot(page):
     page.select("bubbleRob")
     script = page.add("Simulation script")
     same("the script is below what was selected", page.evaluate(f"swanilda.store.objects.get({script}).parent"), body)
-    page.evaluate(f"swanilda.source.request('set', {{handle: {script}, name: 'code', value: {json.dumps(SCRIPT)}}})")
+    types_the_script(page, script)
     return body
+
+
+def types_the_script(page, script):
+    """Into the editor, key by key: it indents, closes brackets, and offers names, which nobody takes."""
+    page.evaluate(f"swanilda.openScript({script})")
+    page.press("document.querySelector('#script [title=\"Change the text\"]:not([hidden])')")
+    page.shows("!!swanilda.script.editing.editor", "the editor")
+    page.press("document.querySelector('#script .cm-content, #script textarea')")
+    page.key("a", "Control")
+    lines = [line.strip() for line in SCRIPT.strip().splitlines()]
+    for number, line in enumerate(lines):
+        if number:
+            page.key("Escape")
+            page.key("Enter")
+        for letter in line:
+            page.key(letter)
+    same("the text", [line.strip() for line in page.evaluate("swanilda.script.editing.draft.text").splitlines()], lines)
+    page.key("s", "Control")
+    page.shows("document.querySelector('.script-status').textContent == 'Saved'", "it is saved")
+    is_accessible(page.browser)
+    page.evaluate("swanilda.script.editing.discard(); swanilda.showPanel('script', false)")
+    page.focus_scene()
 
 
 def below(page, alias, kind):
@@ -238,6 +266,7 @@ def save(page, path):
     """By the dialog; what it says of a file that is there."""
     page.key("s", "Control")
     page.shows("document.querySelector('dialog.save').open", "the dialog")
+    is_accessible(page.browser)
     page.evaluate("document.querySelector('dialog.save input').select()")
     page.type(str(path))
     page.key("Enter")

@@ -84,6 +84,12 @@ class Errors {
   }
 }
 
+/** The list of completions scrolls, so keys have to reach it. */
+const listIsReached = EditorView.updateListener.of(({ view }) => {
+  const list = view.dom.querySelector('.cm-tooltip-autocomplete > ul');
+  if (list && list.tabIndex !== 0) list.tabIndex = 0;
+});
+
 /** Lines end as they did: as in Windows only if all do. */
 const ends = (text) => (text.includes('\r\n') && !/(^|[^\r])\n/.test(text) ? EditorState.lineSeparator.of('\r\n') : []);
 
@@ -95,7 +101,7 @@ function extensions({ text, language, label, onChange, onSave }, errors, breakpo
     ends(text), breakpoints.extension, lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), EditorState.allowMultipleSelections.of(true),
     indentUnit.of('    '), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(), highlightSelectionMatches(),
     mode ? StreamLanguage.define(mode) : [], syntaxHighlighting(classHighlighter),
-    autocompletion({ override: [offers(load, language)] }), hovered, search({ top: true }), showPanel.of(signatures), errors.extension,
+    autocompletion({ override: [offers(load, language)] }), listIsReached, hovered, search({ top: true }), showPanel.of(signatures), errors.extension,
     keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap, indentWithTab]),
     EditorView.updateListener.of((update) => update.docChanged && onChange(update.state.sliceDoc())),
     EditorView.contentAttributes.of({ 'aria-label': label, spellcheck: 'false', tabindex: '0' }),

@@ -30,7 +30,7 @@ export class InspectorPane {
     this.handle = null;
     this.rows = new Map();
     this.folded = new Map();
-    this.title = el('h3', { class: 'inspected' });
+    this.title = el('h2', { class: 'inspected' });
     this.kind = el('p', { class: 'inspected-kind' });
     this.tools = el('div', { class: 'inspected-tools' });
     this.search = el('input', { type: 'search', placeholder: 'Search properties', 'aria-label': 'Search properties', oninput: () => this._filter() });

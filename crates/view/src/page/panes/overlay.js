@@ -34,7 +34,7 @@ export class Overlay {
     const empty = !objects.size ? (scene.state ? 'The scene is empty.' : 'Loading the scene…') : null;
     const stopped = scene.state === 'stopped' && this.page.canWrite && !scene.steps ? 'The simulation is stopped. Press Space to start.' : null;
     const urgent = this.page.failure ?? sentences[connection.state] ?? busy;
-    const text = urgent ?? this.said ?? (halt && sentenceOf(halt)) ?? empty ?? this.loading ?? stopped ?? '';
+    const text = urgent ?? this.said ?? (halt && sentenceOf(halt, this.store)) ?? empty ?? this.loading ?? stopped ?? '';
     setText(this.sentence, text);
     this.stop.hidden = urgent !== busy || !busy || !this.page.canWrite;
     this.notice.hidden = !text;

@@ -16,7 +16,7 @@ export class AddMenu {
     Object.assign(this, { page, edits, button });
     this.below = el('input', { type: 'checkbox' });
     this.choice = el('label', { class: 'choice' }, this.below, 'Below what is selected, at its place');
-    const groups = GROUPS.map(([title, kinds, sign]) => el('div', { role: 'group', 'aria-label': title }, el('h3', {}, title), ...kinds.map(([kind, text]) => this._item(kind, text, sign))));
+    const groups = GROUPS.map(([title, kinds, sign]) => el('div', { role: 'group', 'aria-label': title }, el('h3', { 'aria-hidden': 'true' }, title), ...kinds.map(([kind, text]) => this._item(kind, text, sign))));
     this.element = el('div', { class: 'studio-menu add-menu', role: 'menu', 'aria-label': 'Add an object', hidden: true }, ...groups);
     this.panel = el('div', { class: 'add-panel', hidden: true }, this.element, this.choice);
     this.panel.addEventListener('keydown', (event) => this._key(event));

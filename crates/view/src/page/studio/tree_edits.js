@@ -8,7 +8,7 @@ export class TreeEdits {
   constructor(page, studio) {
     Object.assign(this, { page, studio, edits: studio.edits, store: page.store, tree: page.tree.tree });
     this.menu = el('div', { class: 'studio-menu context-menu', role: 'menu', 'aria-label': 'What can be done with the object', hidden: true });
-    document.body.append(this.menu);
+    document.getElementById('tree-pane').append(this.menu);
     const listen = (type, handler) => this.tree.addEventListener(type, handler);
     listen('pointerdown', (event) => this._markDraggable(event));
     listen('dragstart', (event) => this._dragStart(event));

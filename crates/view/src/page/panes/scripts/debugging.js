@@ -7,9 +7,10 @@ const REASONS = { breakpoint: 'at a breakpoint', 'function breakpoint': 'at a br
 
 /** @typedef {{line: number, condition?: string | null, at?: number | null}} Breakpoint `at` is where it stops, null while its text is not loaded */
 
-/** Where everything stands still, in words. */
-export function sentenceOf({ title, line, reason, text }) {
-  const place = title ? ` in ${title}, line ${line}` : '';
+/** Where everything stands still, in words. @param {any} stopped @param {any} store */
+export function sentenceOf({ handle, isOwn, title, line, reason, text }, store) {
+  const name = isOwn && store.objects.has(handle) ? store.path(handle) : title?.split('/').pop();
+  const place = name ? ` in ${name}, line ${line}` : '';
   return `Stopped ${REASONS[reason] ?? ''}${place}.${text ? ` ${text}` : ''}`;
 }
 
@@ -23,8 +24,7 @@ export class Debugging {
     const steps = STEPS.map(([command, sign, title]) => iconButton(sign, title, () => this.go(command)));
     this.element = el('div', { class: 'debug', role: 'region', 'aria-label': 'Debugger', hidden: true }, this.where, el('div', { class: 'debug-tools', role: 'toolbar', 'aria-label': 'Steps' }, ...steps, this.stack), this.variables.element);
     const button = (text, onclick) => el('button', { type: 'button', class: 'answer-button', onclick }, text);
-    this.show = button('Show', () => this._follow());
-    this.buttons = el('span', { hidden: true }, this.show, button('Go on', () => this.go('continue')));
+    this.buttons = el('span', { hidden: true }, button('Show', () => this._follow()), button('Go on', () => this.go('continue')));
     this.store.on('stopped', () => this._stopped());
     this.store.on('breakpoints', () => this.pane.showBreakpoints());
     addEventListener('keydown', (event) => this._key(event), true);
@@ -90,16 +90,14 @@ export class Debugging {
     this.mark = null;
     this.pane.showStop();
     if (stopped && this.possible() && this.mine) this._follow();
-    else this.show.hidden = false;
   }
 
   /** Shows where the code stands still, and what it has. */
   async _follow() {
     const { stopped } = this.store;
     this.mine = true;
-    this.show.hidden = true;
     if (!stopped) return;
-    setText(this.where, sentenceOf(stopped));
+    setText(this.where, sentenceOf(stopped, this.store));
     const { stackFrames } = await this._ask('stackTrace', { threadId: stopped.handle }).catch(() => ({ stackFrames: [] }));
     if (stopped !== this.store.stopped) return;
     this.frames = stackFrames.filter(({ source }) => source);

@@ -20,7 +20,7 @@ const askBefore = (event) => event.preventDefault();
 const isChanged = (draft) => !!draft && draft.text !== draft.original;
 
 export class ScriptEditing {
-  /** @param {any} page @param {import('./debugging.js').Debugging} debugging @param {{changed: () => void, closed: () => void}} calls */
+  /** @param {any} page @param {import('./debugging.js').Debugging} debugging @param {{changed: () => void, opened: () => void, closed: () => void}} calls */
   constructor(page, debugging, calls) {
     Object.assign(this, { page, debugging, calls, draft: null, editor: null });
     /** @type {Map<string, Draft>} */
@@ -69,6 +69,7 @@ export class ScriptEditing {
     if (line) this.editor.reveal(line);
     this.editor.focus();
     this._mark();
+    this.calls.opened();
     this._meet(script);
   }
 

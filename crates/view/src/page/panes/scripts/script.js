@@ -7,12 +7,12 @@ import { ScriptEditing } from './editing.js';
 export class ScriptPane {
   constructor(pane, page) {
     Object.assign(this, { page });
-    this.title = el('h3', { class: 'inspected' });
+    this.title = el('h2', { class: 'inspected' });
     this.error = el('p', { class: 'script-error', role: 'status', hidden: true });
     this.code = el('div', { class: 'code', tabindex: 0, role: 'region', 'aria-label': 'Text of the script' });
     this.edit = iconButton('edit', 'Change the text', () => this._change());
     this.debugging = new Debugging(page, this);
-    this.editing = new ScriptEditing(page, this.debugging, { changed: () => this._showTitle(), closed: () => this._load() });
+    this.editing = new ScriptEditing(page, this.debugging, { changed: () => this._showTitle(), opened: () => this.showStop(), closed: () => this._load() });
     pane.append(el('div', { class: 'inspected-head' }, this.title, this.edit), this.error, this.debugging.element, this.code, this.editing.element);
     this.code.addEventListener('click', (event) => this._pressed(event));
     page.store.on('scene', () => this._showPermission());
@@ -45,8 +45,8 @@ export class ScriptPane {
   /** Marks the lines of the script that have breakpoints. */
   showBreakpoints() {
     this.code.classList.toggle('debugged', !!this.script && this.debugging.possible(this.script.language));
-    for (const row of this.code.querySelectorAll('.breakpoint')) row.classList.remove('breakpoint', 'waiting');
-    for (const { line, at } of this.debugging.of(this.handle)) this.code.children[(at ?? line) - 1]?.classList.add('breakpoint', ...(at === null ? ['waiting'] : []));
+    for (const row of this.code.querySelectorAll('.breakpoint')) row.classList.remove('breakpoint', 'waiting', 'conditional');
+    for (const { line, at, condition } of this.debugging.of(this.handle)) this.code.children[(at ?? line) - 1]?.classList.add('breakpoint', ...(at === null ? ['waiting'] : []), ...(condition ? ['conditional'] : []));
     this.editing.showBreakpoints();
   }
 
