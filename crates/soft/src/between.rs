@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::V3;
 use crate::contact::{Contact, Surface};
 use crate::rod::Rod;
+use crate::touch::Touch;
 
 /// Edges of a rod nearer than this along it, in diameters, do not touch each other.
 const APART: f64 = 2.0;
@@ -88,12 +89,8 @@ fn touch(rods: &[Rod], first: Edge, second: Edge, margin: f64, friction: f64) ->
         edge: first.1,
         weight: s,
         surface: Surface::Rod(second.0, second.1, t),
-        point: on_second + normal * b.material.radius,
-        normal,
-        friction,
+        touch: Touch::new(on_second + normal * b.material.radius, normal, friction),
         key: 1 << 63 | (second.0 as u64) << 20 | second.1 as u64,
-        stick: V3::zeros(),
-        impulse: V3::zeros(),
     })
 }
 

@@ -4,10 +4,11 @@ use nalgebra::{Matrix3, Vector6};
 
 use crate::assembly::{CommonEquations, Equations, lever_map};
 use crate::body::{Body, Unknown};
-use crate::contact::{Contact, Placed, Push, Surface};
+use crate::contact::{Contact, Surface};
 use crate::elastic::Shape;
 use crate::frames::angle_about;
 use crate::rod::{Hold, Node, Rod, Target};
+use crate::touch::{Placed, Push};
 use crate::{V3, material::Material};
 
 /// How many times stiffer than its surroundings a place is at which a rod is held: it gives way by that part of what they do.
@@ -169,7 +170,7 @@ fn surface_displacement(
     match contact.surface {
         Surface::Obstacle(velocity) => velocity * step,
         Surface::Body(body) => {
-            let lever = contact.point - bodies.all[body].com;
+            let lever = contact.touch.point - bodies.all[body].com;
             bodies.unknowns[body].displacement(&lever)
         }
         Surface::Rod(other, edge, weight) => {
@@ -201,7 +202,11 @@ pub(crate) fn placed(
     let (before, now) = (on(&rod.now.places), on(&trials[contact.rod]));
     let moved = surface_displacement(contact, bodies, rods, trials, step);
     Placed {
-        gap: contact.normal.dot(&(now - contact.point - moved)) - rod.material.radius,
+        gap: contact
+            .touch
+            .normal
+            .dot(&(now - contact.touch.point - moved))
+            - rod.material.radius,
         slip: now - before - moved,
         stiffness: contact_stiffness(&rod.material, rod.rest_lengths[contact.edge], step),
     }
@@ -215,7 +220,8 @@ pub(crate) fn force_of(
     trials: &[Vec<Node>],
     step: f64,
 ) -> Option<Push> {
-    placed(contact, bodies, rods, trials, step).push(contact)
+    let place = placed(contact, bodies, rods, trials, step);
+    place.push(&contact.touch, place.limit(&contact.touch))
 }
 
 /// The potential of what holds a rod.
@@ -282,7 +288,7 @@ pub(crate) fn add_contacts(
             continue;
         }
         let body = match contact.surface {
-            Surface::Body(body) => Some((body, contact.point - bodies.all[body].com)),
+            Surface::Body(body) => Some((body, contact.touch.point - bodies.all[body].com)),
             _ => None,
         };
         let coupling = Coupling {

@@ -40,6 +40,7 @@ mod material;
 mod newton;
 mod rod;
 mod scheme;
+mod touch;
 
 pub use between::between;
 pub use body::Body;
@@ -47,6 +48,7 @@ pub use contact::{Contact, Surface};
 pub use material::Material;
 pub use newton::{Step, solve};
 pub use rod::{Hold, Rod, Target};
+pub use touch::Touch;
 
 use nalgebra::Vector3;
 

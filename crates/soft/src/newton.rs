@@ -114,7 +114,7 @@ impl Solver {
         }
         contacts
             .iter_mut()
-            .for_each(|contact| contact.impulse = V3::zeros());
+            .for_each(|contact| contact.touch.impulse = V3::zeros());
         let guess = |rod: &Rod| {
             let pairs = rod.now.places.iter().zip(&rod.now.velocities);
             pairs
@@ -222,7 +222,7 @@ impl Solver {
         };
         let limit = |contact: &Contact| {
             let place = placed(contact, &known, rods, &self.trials, step.length);
-            contact.friction * (-place.gap).max(0.0)
+            place.limit(&contact.touch)
         };
         contacts.iter().map(limit).collect()
     }
@@ -250,7 +250,7 @@ impl Solver {
         }
         for (contact, limit) in contacts.iter().zip(limits) {
             let place = placed(contact, &known, rods, &self.trials, step.length);
-            sum += place.potential(contact, *limit);
+            sum += place.potential(&contact.touch, *limit);
         }
         sum
     }
@@ -345,13 +345,13 @@ impl Solver {
         };
         for contact in contacts.iter_mut() {
             let Some(push) = force_of(contact, &known, rods, &trials, step) else {
-                contact.stick = V3::zeros();
+                contact.touch.stick = V3::zeros();
                 continue;
             };
-            (contact.impulse, contact.stick) = (push.force * step, push.stick);
+            (contact.touch.impulse, contact.touch.stick) = (push.force * step, push.stick);
             if let Surface::Body(body) = contact.surface {
-                let lever = contact.point - known.all[body].com;
-                impulses[body] -= lever_map(&lever).transpose() * contact.impulse;
+                let lever = contact.touch.point - known.all[body].com;
+                impulses[body] -= lever_map(&lever).transpose() * contact.touch.impulse;
             }
         }
         for (rod, trial) in rods.iter_mut().zip(&trials) {
@@ -399,7 +399,7 @@ fn count_calm_steps(
     for contact in contacts {
         let rod = &rods[contact.rod];
         let now = point_on(&rod.now.places, contact.edge, contact.weight);
-        let gap = contact.normal.dot(&(now - contact.point)) - rod.material.radius;
+        let gap = contact.touch.normal.dot(&(now - contact.touch.point)) - rod.material.radius;
         let later = placed(contact, bodies, rods, trials, step).gap;
         if gap.min(later) < NEAR * rod.material.radius {
             rods[contact.rod].calm_steps = 0;

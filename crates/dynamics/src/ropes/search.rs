@@ -5,7 +5,7 @@ use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d_f64::parry::query::{ClosestPoints, closest_points};
 use rapier3d_f64::parry::shape::Segment;
 use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryFilter, RigidBody};
-use soft::{Contact, Rod, Surface, V3};
+use soft::{Contact, Rod, Surface, Touch, V3};
 
 use super::coupling::Coupled;
 use super::{Placed, Start};
@@ -180,12 +180,8 @@ impl Search<'_> {
             edge,
             weight,
             surface: Surface::Obstacle(obstacle.velocity_at(near.point, self.start.step)),
-            point: near.point,
-            normal: near.normal,
-            friction: obstacle.friction,
+            touch: Touch::new(near.point, near.normal, obstacle.friction),
             key,
-            stick: V3::zeros(),
-            impulse: V3::zeros(),
         }
     }
 }

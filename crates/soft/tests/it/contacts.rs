@@ -14,12 +14,12 @@ fn on_floor(rod: &Rod, friction: f64) -> Vec<Contact> {
         edge: node.min(rod.len() - 2),
         weight: if node == rod.len() - 1 { 1.0 } else { 0.0 },
         surface: Surface::Obstacle(V3::zeros()),
-        point: V3::new(rod.point(node).x, rod.point(node).y, 0.0),
-        normal: V3::z(),
-        friction,
+        touch: Touch::new(
+            V3::new(rod.point(node).x, rod.point(node).y, 0.0),
+            V3::z(),
+            friction,
+        ),
         key: u64::from(node == rod.len() - 1),
-        stick: V3::zeros(),
-        impulse: V3::zeros(),
     };
     (0..rod.len()).filter(near).map(contact).collect()
 }
@@ -37,12 +37,8 @@ fn on_cylinder(rod: &Rod, radius: f64, friction: f64) -> Vec<Contact> {
             edge,
             weight,
             surface: Surface::Obstacle(V3::zeros()),
-            point: normal * radius,
-            normal,
-            friction,
+            touch: Touch::new(normal * radius, normal, friction),
             key: 0,
-            stick: V3::zeros(),
-            impulse: V3::zeros(),
         })
     };
     (0..rod.len() - 1).filter_map(contact).collect()
@@ -80,7 +76,10 @@ fn a_rope_falls_on_the_floor_and_lies_still() {
         .map(|(a, b)| (a - b).norm())
         .fold(0.0, f64::max);
     assert!(crept < 1e-5, "{crept}");
-    let pressed: f64 = kept.iter().map(|contact| contact.impulse.z / 0.005).sum();
+    let pressed: f64 = kept
+        .iter()
+        .map(|contact| contact.touch.impulse.z / 0.005)
+        .sum();
     near(pressed, 0.05 * 1.005 * GRAVITY, 0.02);
 }
 
@@ -163,12 +162,8 @@ fn a_rope_that_is_laid_over_a_body_pushes_it_down() {
             edge: 10,
             weight: 0.0,
             surface: Surface::Body(0),
-            point: bodies[0].com - V3::z() * 0.045,
-            normal: -V3::z(),
-            friction: 0.5,
+            touch: Touch::new(bodies[0].com - V3::z() * 0.045, -V3::z(), 0.5),
             key: 3,
-            stick: V3::zeros(),
-            impulse: V3::zeros(),
         };
         run_in_contact(
             &mut rods,
@@ -182,7 +177,7 @@ fn a_rope_that_is_laid_over_a_body_pushes_it_down() {
         bodies[0].velocity[3] = 0.0;
         bodies[0].velocity[4] = 0.0;
     }
-    near(-kept[0].impulse.z / 0.005, 0.3 * GRAVITY, 0.02);
+    near(-kept[0].touch.impulse.z / 0.005, 0.3 * GRAVITY, 0.02);
     near(bodies[0].impulse[2] / 0.005, 0.3 * GRAVITY, 0.02);
 }
 
@@ -225,7 +220,10 @@ fn ropes_lie_across_each_other() {
         .flat_map(|a| upper.iter().map(move |b| (a - b).norm()));
     let apart = pairs.fold(1.0, f64::min);
     assert!((apart - 0.004).abs() < 3e-4, "{apart}");
-    let pressed: f64 = kept.iter().map(|contact| contact.impulse.z / 0.005).sum();
+    let pressed: f64 = kept
+        .iter()
+        .map(|contact| contact.touch.impulse.z / 0.005)
+        .sum();
     near(pressed.abs(), 0.05 * 0.4 * GRAVITY, 0.05);
 }
 

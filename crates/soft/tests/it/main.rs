@@ -5,7 +5,7 @@ mod contacts;
 mod motion;
 mod statics;
 
-use soft::{Body, Contact, Hold, Material, Rod, Step, Target, V3, solve};
+use soft::{Body, Contact, Hold, Material, Rod, Step, Target, Touch, V3, solve};
 
 pub(crate) const GRAVITY: f64 = 9.81;
 
