@@ -35,6 +35,7 @@ mod bound;
 mod condensation;
 mod contact;
 mod elastic;
+pub mod fem;
 mod frames;
 mod material;
 mod newton;

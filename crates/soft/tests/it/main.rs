@@ -2,6 +2,7 @@
 
 mod bodies;
 mod contacts;
+mod fem;
 mod motion;
 mod statics;
 

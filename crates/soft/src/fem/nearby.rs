@@ -1,0 +1,263 @@
+//! Where cloths and volumes touch each other and themselves.
+
+use std::collections::BTreeMap;
+
+use super::Deformable;
+use super::contact::{Contact, Spot, Surface};
+use crate::V3;
+use crate::touch::Touch;
+
+/// A node, an edge or a triangle of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Element {
+    part: usize,
+    /// Nodes, the last ones repeated.
+    nodes: [usize; 3],
+}
+
+/// A box around an element.
+struct Bounds {
+    low: V3,
+    high: V3,
+}
+
+/// The points at which cloths and volumes are or come nearer than `margin` (metres) to each other. `friction`: of a pair of parts; None if they do not touch.
+///
+/// Nodes against triangles, and edges against edges. What shares a node does not touch.
+pub fn nearby(
+    parts: &[Deformable],
+    margin: f64,
+    friction: impl Fn(usize, usize) -> Option<f64>,
+) -> Vec<Contact> {
+    let search = Search {
+        parts,
+        margin,
+        size: cell_size(parts, margin),
+    };
+    let mut contacts = Vec::new();
+    if search.size <= 0.0 {
+        return contacts;
+    }
+    let mut add = |first: Element, second: Element| {
+        if let Some(friction) = friction(first.part, second.part) {
+            contacts.extend(search.touch(first, second, friction));
+        }
+    };
+    let (edges, triangles) = (search.edges(), search.triangles());
+    search.pairs(&search.nodes(), &triangles, &mut add);
+    search.pairs(&edges, &edges, &mut |first, second| {
+        if first < second {
+            add(first, second);
+        }
+    });
+    contacts
+}
+
+struct Search<'a> {
+    parts: &'a [Deformable],
+    margin: f64,
+    size: f64,
+}
+
+/// Elements that touch are in the same cell, or in cells beside each other.
+fn cell_size(parts: &[Deformable], margin: f64) -> f64 {
+    let of = |part: &Deformable| {
+        let edges = part
+            .surface
+            .iter()
+            .flat_map(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)]);
+        let lengths = edges.map(|(a, b)| (part.places[a] - part.places[b]).norm());
+        lengths.fold(0.0, f64::max) + 2.0 * part.material.radius
+    };
+    parts.iter().map(of).fold(0.0, f64::max) + margin
+}
+
+impl Search<'_> {
+    fn nodes(&self) -> Vec<Element> {
+        self.elements(|[a, b, c]| [[a, a, a], [b, b, b], [c, c, c]])
+    }
+
+    fn edges(&self) -> Vec<Element> {
+        let edge = |a: usize, b: usize| [a.min(b), a.max(b), a.max(b)];
+        self.elements(|[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)])
+    }
+
+    fn triangles(&self) -> Vec<Element> {
+        self.elements(|triangle| [triangle])
+    }
+
+    fn elements<const N: usize>(&self, of: impl Fn([usize; 3]) -> [[usize; 3]; N]) -> Vec<Element> {
+        let mut all = Vec::new();
+        for (part, deformable) in self.parts.iter().enumerate() {
+            let whole = deformable.surface.iter().enumerate();
+            let whole = whole.filter(|(number, _)| !deformable.is_torn(*number));
+            let nodes = whole.flat_map(|(_, triangle)| of(*triangle));
+            all.extend(nodes.map(|nodes| Element { part, nodes }));
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    fn place(&self, element: Element, corner: usize) -> V3 {
+        self.parts[element.part].places[element.nodes[corner]]
+    }
+
+    fn bounds(&self, element: Element) -> Bounds {
+        let [a, b, c] = [0, 1, 2].map(|corner| self.place(element, corner));
+        let reach = V3::repeat(self.parts[element.part].material.radius + 0.5 * self.margin);
+        Bounds {
+            low: a.inf(&b).inf(&c) - reach,
+            high: a.sup(&b).sup(&c) + reach,
+        }
+    }
+
+    fn cell(&self, place: &V3) -> [i64; 3] {
+        [place.x, place.y, place.z].map(|x| (x / self.size).floor() as i64)
+    }
+
+    /// Calls a function with all pairs of elements whose boxes overlap and that share no node.
+    fn pairs(&self, first: &[Element], second: &[Element], add: &mut impl FnMut(Element, Element)) {
+        let mut cells: BTreeMap<[i64; 3], Vec<(usize, Bounds)>> = BTreeMap::new();
+        for (number, element) in second.iter().enumerate() {
+            let bounds = self.bounds(*element);
+            let middle = (bounds.low + bounds.high) * 0.5;
+            cells
+                .entry(self.cell(&middle))
+                .or_default()
+                .push((number, bounds));
+        }
+        for element in first {
+            let bounds = self.bounds(*element);
+            let [x, y, z] = self.cell(&((bounds.low + bounds.high) * 0.5));
+            let around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
+            for (number, other) in around.filter_map(|cell| cells.get(&cell)).flatten() {
+                if bounds.overlaps(other) && !element.shares_node(&second[*number]) {
+                    add(*element, second[*number]);
+                }
+            }
+        }
+    }
+
+    fn touch(&self, first: Element, second: Element, friction: f64) -> Option<Contact> {
+        let corners = |element| [0, 1, 2].map(|corner| self.place(element, corner));
+        let (on_first, on_second) = if first.nodes[0] == first.nodes[2] {
+            (
+                [1.0, 0.0, 0.0],
+                nearest_on_triangle(&self.place(first, 0), corners(second))?,
+            )
+        } else {
+            nearest_of_edges(corners(first), corners(second))?
+        };
+        let at = |element, weights: [f64; 3]| {
+            let [a, b, c] = corners(element);
+            a * weights[0] + b * weights[1] + c * weights[2]
+        };
+        let place = at(second, on_second);
+        let apart = at(first, on_first) - place;
+        let distance = apart.norm();
+        let [own, other] = [first, second].map(|e| self.parts[e.part].material.radius);
+        if distance > own + other + self.margin || distance < 1e-9 {
+            return None;
+        }
+        let normal = apart / distance;
+        Some(Contact {
+            part: first.part,
+            spot: first.spot(on_first),
+            surface: Surface::Soft(second.part, second.spot(on_second)),
+            touch: Touch::new(place + normal * other, normal, friction),
+            key: name(first, second),
+        })
+    }
+}
+
+/// Names a pair of elements; other pairs have other names but for a chance that does not matter, since only the friction of a contact goes on under it.
+fn name(first: Element, second: Element) -> u64 {
+    let [a, b, _] = first.nodes;
+    let numbers = [a, b, second.part].into_iter().chain(second.nodes);
+    let mixed = numbers.fold(0_u64, |sum, number| {
+        (sum ^ number as u64)
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            .rotate_left(23)
+    });
+    mixed | 1 << 63
+}
+
+impl Element {
+    fn shares_node(&self, other: &Self) -> bool {
+        self.part == other.part && self.nodes.iter().any(|node| other.nodes.contains(node))
+    }
+
+    fn spot(&self, weights: [f64; 3]) -> Spot {
+        [0, 1, 2].map(|corner| (self.nodes[corner], weights[corner]))
+    }
+}
+
+impl Bounds {
+    fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
+    }
+}
+
+/// Weights of the corners of the point within a triangle that is nearest to a place; None where that is on an edge, which others find.
+fn nearest_on_triangle(place: &V3, [a, b, c]: [V3; 3]) -> Option<[f64; 3]> {
+    let (ab, ac, ap) = (b - a, c - a, place - a);
+    let normal = ab.cross(&ac);
+    let area = normal.norm_squared();
+    if area <= 0.0 {
+        return None;
+    }
+    let third = ab.cross(&ap).dot(&normal) / area;
+    let second = ap.cross(&ac).dot(&normal) / area;
+    let weights = [1.0 - second - third, second, third];
+    weights
+        .iter()
+        .all(|weight| *weight >= 0.0)
+        .then_some(weights)
+}
+
+/// Weights of the ends where two edges are nearest; None where one of them ends there.
+fn nearest_of_edges([a, b, _]: [V3; 3], [c, d, _]: [V3; 3]) -> Option<([f64; 3], [f64; 3])> {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, uv, vv, uw, vw) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
+    let area = uu * vv - uv * uv;
+    if area <= 1e-9 * uu * vv {
+        return None;
+    }
+    let s = (uv * vw - vv * uw) / area;
+    let t = (uu * vw - uv * uw) / area;
+    let is_within = (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t);
+    is_within.then_some(([1.0 - s, s, 0.0], [1.0 - t, t, 0.0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_nearest_within_a_triangle() {
+        let triangle = [V3::zeros(), V3::x(), V3::y()];
+        let weights = nearest_on_triangle(&V3::new(0.25, 0.5, 3.0), triangle).unwrap();
+        assert!(
+            weights
+                .iter()
+                .zip([0.25, 0.25, 0.5])
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        assert!(nearest_on_triangle(&V3::new(0.6, 0.6, 0.0), triangle).is_none());
+    }
+
+    #[test]
+    fn edges_are_nearest_where_they_cross() {
+        let first = [V3::zeros(), V3::x(), V3::x()];
+        let over = [
+            V3::new(0.25, -1.0, 0.1),
+            V3::new(0.25, 3.0, 0.1),
+            V3::zeros(),
+        ];
+        let (on_first, on_second) = nearest_of_edges(first, over).unwrap();
+        assert!((on_first[1] - 0.25).abs() < 1e-12 && (on_second[1] - 0.25).abs() < 1e-12);
+        let beside = [V3::new(1.5, -1.0, 0.1), V3::new(1.5, 3.0, 0.1), V3::zeros()];
+        assert!(nearest_of_edges(first, beside).is_none());
+    }
+}
