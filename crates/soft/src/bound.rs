@@ -212,16 +212,16 @@ pub(crate) fn placed(
     }
 }
 
-/// What a contact exerts with the nodes at `trials`; None where the surfaces are apart.
+/// What a contact exerts with the nodes at `trials`, for a largest elongation of its friction spring; None where the surfaces are apart.
 pub(crate) fn force_of(
     contact: &Contact,
+    limit: f64,
     bodies: &Bodies,
     rods: &[Rod],
     trials: &[Vec<Node>],
     step: f64,
 ) -> Option<Push> {
-    let place = placed(contact, bodies, rods, trials, step);
-    place.push(&contact.touch, place.limit(&contact.touch))
+    placed(contact, bodies, rods, trials, step).push(&contact.touch, limit)
 }
 
 /// The potential of what holds a rod.
@@ -255,6 +255,7 @@ fn place_of(hold: &Hold, bodies: &Bodies) -> V3 {
 /// Adds the forces of contacts.
 pub(crate) fn add_contacts(
     contacts: &[Contact],
+    limits: &[f64],
     rods: &[Rod],
     trials: &[Vec<Node>],
     step: f64,
@@ -262,8 +263,8 @@ pub(crate) fn add_contacts(
     equations: &mut [Equations],
     common: &mut CommonEquations,
 ) {
-    for contact in contacts {
-        let Some(push) = force_of(contact, bodies, rods, trials, step) else {
+    for (contact, limit) in contacts.iter().zip(limits) {
+        let Some(push) = force_of(contact, *limit, bodies, rods, trials, step) else {
             continue;
         };
         let nodes = nodes_of(contact.edge, contact.weight);

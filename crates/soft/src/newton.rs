@@ -18,6 +18,8 @@ use crate::scheme::Scheme;
 const NEAR: f64 = 0.5;
 /// Most iterations of Newton's method in a step.
 const MAX_ITERATIONS: usize = 20;
+/// Iterations after which the largest friction forces stay as they are, so that the rest of the step has a potential.
+const FRICTION_ITERATIONS: usize = 3;
 /// Change of places by which the solution counts as found, metres.
 const TOLERANCE: f64 = 1e-8;
 /// Farthest that a node goes in an iteration, in lengths of the shortest edge.
@@ -105,6 +107,8 @@ struct Solver {
     trials: Vec<Vec<Node>>,
     equations: Vec<Equations>,
     unknowns: Vec<Unknown>,
+    /// Largest elongations of the friction springs.
+    limits: Vec<f64>,
 }
 
 impl Solver {
@@ -142,6 +146,7 @@ impl Solver {
             trials,
             equations: rods.iter().map(|_| Equations::default()).collect(),
             unknowns,
+            limits: Vec::new(),
         }
     }
 
@@ -154,7 +159,9 @@ impl Solver {
     ) -> Outcome {
         let mut part = 1.0;
         for iteration in 0..MAX_ITERATIONS {
-            let limits = self.friction_limits(rods, bodies, contacts, step);
+            if iteration < FRICTION_ITERATIONS {
+                self.limits = self.friction_limits(rods, bodies, contacts, step);
+            }
             let common = self.assemble(rods, bodies, contacts, step, iteration == 0);
             let Some(change) = self.solve(common) else {
                 return Outcome::Lost;
@@ -164,7 +171,7 @@ impl Solver {
                 return Outcome::Lost;
             }
             part = self.advance(&change, way, |solver| {
-                solver.potential(rods, bodies, contacts, &limits, step)
+                solver.potential(rods, bodies, contacts, step)
             });
             if way < TOLERANCE {
                 break;
@@ -227,15 +234,8 @@ impl Solver {
         contacts.iter().map(limit).collect()
     }
 
-    /// What the step minimises, for known limits of friction.
-    fn potential(
-        &self,
-        rods: &[Rod],
-        bodies: &[Body],
-        contacts: &[Contact],
-        limits: &[f64],
-        step: Step,
-    ) -> f64 {
+    /// What the step minimises.
+    fn potential(&self, rods: &[Rod], bodies: &[Body], contacts: &[Contact], step: Step) -> f64 {
         let known = Bodies {
             all: bodies,
             unknowns: &self.unknowns,
@@ -248,7 +248,7 @@ impl Solver {
                 + elastic_potential(rod, &shape, rod.material.damping / step.length)
                 + hold_potential(rod, &shape, trial, step.length, &known);
         }
-        for (contact, limit) in contacts.iter().zip(limits) {
+        for (contact, limit) in contacts.iter().zip(&self.limits) {
             let place = placed(contact, &known, rods, &self.trials, step.length);
             sum += place.potential(&contact.touch, *limit);
         }
@@ -298,6 +298,7 @@ impl Solver {
         let (trials, equations) = (&self.trials, &mut self.equations);
         add_contacts(
             contacts,
+            &self.limits,
             rods,
             trials,
             step.length,
@@ -336,6 +337,7 @@ impl Solver {
             schemes,
             trials,
             unknowns,
+            limits,
             ..
         } = self;
         let mut impulses = vec![Vector6::zeros(); bodies.len()];
@@ -343,8 +345,8 @@ impl Solver {
             all: bodies,
             unknowns: &unknowns,
         };
-        for contact in contacts.iter_mut() {
-            let Some(push) = force_of(contact, &known, rods, &trials, step) else {
+        for (contact, limit) in contacts.iter_mut().zip(limits) {
+            let Some(push) = force_of(contact, limit, &known, rods, &trials, step) else {
                 contact.touch.stick = V3::zeros();
                 continue;
             };

@@ -66,9 +66,10 @@ impl Placed {
         touch.friction * (-self.gap).max(0.0)
     }
 
-    /// The force for a largest elongation of the spring along the surface; None where the surfaces are apart.
+    /// The force for a largest elongation of the spring along the surface; None where the surfaces are apart. A limit that was found while they touched holds on
+    /// until the end of the step.
     pub(crate) fn push(&self, touch: &Touch, limit: f64) -> Option<Push> {
-        if self.gap >= 0.0 {
+        if self.gap >= 0.0 && limit <= 0.0 {
             return None;
         }
         let (normal, stiffness) = (touch.normal, self.stiffness);
@@ -79,13 +80,15 @@ impl Placed {
         let (stick, resistance) = if length <= limit {
             (stick, along * stiffness)
         } else {
-            let direction = stick / length;
-            let across = along - direction * direction.transpose();
-            (direction * limit, across * (stiffness * limit / length))
+            // Where it slips, the largest stiffness that has this force: Newton's own would go too far along the surface.
+            let part = limit / length;
+            (stick * part, along * (stiffness * part))
         };
+        let depth = (-self.gap).max(0.0);
+        let pressed = if depth > 0.0 { stiffness } else { 0.0 };
         Some(Push {
-            force: (normal * -self.gap - stick) * stiffness,
-            stiffness: outer * stiffness + resistance,
+            force: (normal * depth - stick) * stiffness,
+            stiffness: outer * pressed + resistance,
             stick,
         })
     }

@@ -10,7 +10,7 @@ use crate::V3;
 use crate::assembly::lever_map;
 
 /// Part of the residual that is left.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-2;
 /// Most iterations of a solution.
 const MAX_ITERATIONS: usize = 400;
 
