@@ -8,7 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
-//! - `ropes`: ropes and cables, moved by the crate `soft` before the mechanisms are solved.
+//! - `soft_bodies`: ropes, cloths and volumes, moved by the crate `soft` before the mechanisms are solved.
 //! - `particles`: small spheres, moved after the bodies.
 //! - `adhesion`, `tendons`: forces between bodies that MuJoCo's parameters ask for.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
@@ -35,7 +35,7 @@ mod near;
 mod particles;
 mod plan;
 mod report;
-mod ropes;
+mod soft_bodies;
 mod tendons;
 #[cfg(test)]
 mod tests;
@@ -60,7 +60,7 @@ use motors::Motion;
 use particles::Particles;
 use plan::Plan;
 pub use report::Trigger;
-use ropes::{Response, Ropes};
+use soft_bodies::{Response, SoftBodies};
 use tendons::Tendons;
 use world::World;
 
@@ -89,7 +89,7 @@ pub struct Dynamics {
     bodies: Bodies,
     links: Links,
     mechanisms: Mechanisms,
-    ropes: Ropes,
+    soft_bodies: SoftBodies,
     particles: Particles,
     /// Whether bodies that cling have been pulled in this sub-step.
     have_clung: bool,
@@ -225,10 +225,10 @@ impl Dynamics {
         self.note_surrounding(settings.surrounding());
         self.update_plan(scene);
         let has_bodies = self.bodies.iter().any(|(_, body)| body.build.dynamic);
-        if self.ropes.is_empty() && !has_bodies && scene.drawings().particles().is_empty() {
+        if self.soft_bodies.is_empty() && !has_bodies && scene.drawings().particles().is_empty() {
             return Ok(None);
         }
-        self.ropes.follow(scene);
+        self.soft_bodies.follow(scene);
         let world = self.world.get_or_insert_with(Box::default);
         self.bodies.plan_sweeps(world, scene);
         for link in self.links.values_mut() {
@@ -266,13 +266,13 @@ impl Dynamics {
             && !released
             && !self.bodies.were_touched(scene)
             && !links::were_touched(&self.links, scene)
-            && !self.ropes.were_touched(scene)
+            && !self.soft_bodies.were_touched(scene)
             && !self.far.iter().any(|&root| !plan::is_far(scene, root))
         {
             return;
         }
         let world = self.world.get_or_insert_with(Box::default);
-        let plan = Plan::new(scene, &self.frozen);
+        let plan = Plan::new(scene, &self.frozen, &self.soft_bodies);
         self.far = plan.far;
         self.bodies
             .apply_plan(plan.bodies, world, scene, &mut self.forms);
@@ -281,8 +281,8 @@ impl Dynamics {
         links::clear_resets(&self.links, scene);
         contacts::note_colliders(world);
         let_sleep(&self.bodies, &self.links, world);
-        self.ropes
-            .apply_plan(plan.ropes, &self.bodies, world, scene);
+        self.soft_bodies
+            .apply_plan(plan.soft, &self.bodies, world, scene);
         self.tendons.apply_plan(plan.tendons, &self.bodies, world);
         self.contacts.forget_resting();
         self.is_stepped = false;
@@ -304,13 +304,13 @@ impl Dynamics {
         std::mem::take(&mut self.has_missed_changes) || changed
     }
 
-    /// Tells the scene where the ropes are, which is no change that needs a new plan.
-    fn report_ropes(&mut self, scene: &mut Scene) {
-        if self.ropes.is_empty() {
+    /// Tells the scene where soft bodies are, which is no change that needs a new plan.
+    fn report_soft_bodies(&mut self, scene: &mut Scene) {
+        if self.soft_bodies.is_empty() {
             return;
         }
         let changed = self.has_new_changes(scene);
-        self.ropes.report(scene);
+        self.soft_bodies.report(scene);
         self.has_new_changes(scene);
         self.has_missed_changes = changed;
     }
@@ -386,7 +386,7 @@ impl Dynamics {
         let call = self.call?;
         let gravity = gravity_of(scene);
         // Nobody else can have changed the forces since the first sub-step.
-        let was_pushed = self.ropes.have_pushed
+        let was_pushed = self.soft_bodies.have_pushed
             || self.particles.have_pushed
             || self.have_clung
             || self.tendons.have_pulled;
@@ -402,12 +402,12 @@ impl Dynamics {
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
-        self.move_ropes(&mut world, gravity, call, sub_step, &verdicts);
+        self.move_soft_bodies(&mut world, gravity, call, sub_step, &verdicts);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
         let is_known = is_integrated
             && !script_access.possible
-            && self.ropes.is_empty()
+            && self.soft_bodies.is_empty()
             && scene.drawings().particles().is_empty()
             && !self.bodies.are_clinging
             && self.mechanisms.know_surroundings(&mut world);
@@ -432,8 +432,8 @@ impl Dynamics {
         })
     }
 
-    /// Moves the ropes, and applies to the bodies what they do to them.
-    fn move_ropes(
+    /// Moves the soft bodies, and applies to the bodies what they do to them.
+    fn move_soft_bodies(
         &mut self,
         world: &mut World,
         gravity: [f64; 3],
@@ -441,30 +441,30 @@ impl Dynamics {
         sub_step: u32,
         verdicts: &Verdicts,
     ) {
-        self.ropes.have_pushed = false;
-        if self.ropes.is_empty() {
+        self.soft_bodies.have_pushed = false;
+        if self.soft_bodies.is_empty() {
             return;
         }
-        let start = ropes::Start {
+        let start = soft_bodies::Start {
             verdicts,
             gravity,
             step: call.step,
             fraction: f64::from(sub_step) / f64::from(call.sub_steps),
         };
-        let are_bodies_coupled = self.ropes.look_around(&self.bodies, world, start);
+        let are_bodies_coupled = self.soft_bodies.look_around(&self.bodies, world, start);
         let mut responses = Vec::new();
         if are_bodies_coupled {
             let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
             self.mechanisms
                 .solve(links, bodies, world, gravity, call.step, verdicts, workers);
-            for shape in self.ropes.coupled_shapes() {
+            for shape in self.soft_bodies.coupled_shapes() {
                 responses.extend(self.response_of(shape, world, gravity, call.step));
             }
         }
-        self.ropes.solve(responses, world, start);
+        self.soft_bodies.solve(responses, world, start);
     }
 
-    /// Where a body would go without ropes, and what an impulse changes.
+    /// Where a body would go without soft bodies, and what an impulse changes.
     fn response_of(
         &mut self,
         shape: Handle,

@@ -12,10 +12,11 @@ use articulation::JointKind;
 use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
+use crate::soft_bodies::SoftBodies;
 use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
-use scene::shape::rope::{Pin, Rope};
+use scene::shape::soft::{Pin, Soft};
 use scene::shape::{Fluid, MovingSurface, Primitive, Shape};
 use scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 pub(super) use tendon::TendonPlan;
@@ -32,26 +33,33 @@ pub(super) struct Plan {
     pub bodies: Vec<(Handle, BodyPlan)>,
     /// Handle of the joint, force sensor or (smaller) dummy of the link.
     pub links: BTreeMap<Handle, LinkPlan>,
-    /// Ropes, base-to-tip.
-    pub ropes: Vec<(Handle, RopePlan)>,
+    /// What is soft, base-to-tip.
+    pub soft: Vec<(Handle, SoftPlan)>,
     /// Tendons between dummies.
     pub tendons: Vec<TendonPlan>,
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
 }
 
-/// A rope.
-pub(super) struct RopePlan {
+/// A rope, cloth or volume.
+pub(super) struct SoftPlan {
     uid: Uid,
-    pub rope: Rope,
+    pub soft: Rc<Soft>,
+    /// What says so.
+    text: String,
     pub pins: Vec<Pin>,
     pub surface: Surface,
 }
 
-impl RopePlan {
-    /// Whether this is the same rope, perhaps held elsewhere.
-    pub(super) fn is_same_rope(&self, other: &Self) -> bool {
-        self.uid == other.uid && self.rope == other.rope
+impl SoftPlan {
+    /// Whether this is the same thing, perhaps held elsewhere.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.uid == other.uid && self.text == other.text
+    }
+
+    /// What a text says, if this is known from it.
+    pub(super) fn known(&self, text: &str) -> Option<Rc<Soft>> {
+        (self.text == text).then(|| Rc::clone(&self.soft))
     }
 }
 
@@ -161,7 +169,8 @@ impl LinkKind {
 }
 
 impl Plan {
-    pub(super) fn new(scene: &Scene, frozen: &Frozen) -> Self {
+    /// `known`: what is soft and known already.
+    pub(super) fn new(scene: &Scene, frozen: &Frozen, known: &SoftBodies) -> Self {
         let order = scene.all_breadth_first();
         let far: Vec<_> = order
             .iter()
@@ -174,12 +183,12 @@ impl Plan {
         let bodies = here
             .filter_map(|&handle| Some((handle, body(scene, handle, frozen)?)))
             .collect();
-        let ropes = order
+        let soft = order
             .iter()
-            .filter_map(|&handle| Some((handle, rope(scene, handle)?)));
+            .filter_map(|&handle| Some((handle, soft(scene, handle, known)?)));
         let mut plan = Self {
             bodies,
-            ropes: ropes.collect(),
+            soft: soft.collect(),
             tendons: Vec::new(),
             links: BTreeMap::new(),
             far,
@@ -207,7 +216,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     if !dynamics.respondable && dynamics.is_static && !carries_links(scene, object) {
         return None;
     }
-    if !dynamics.is_static && object.rope().is_some() {
+    if !dynamics.is_static && object.soft_text().is_some() {
         return None;
     }
     let flags = scene.calculated_model_property(handle);
@@ -252,22 +261,26 @@ fn among(scene: &Scene, object: &Object, mut surface: Surface) -> Surface {
     surface
 }
 
-/// A shape that bends: one that is not static, and says that it is a rope.
-fn rope(scene: &Scene, handle: Handle) -> Option<RopePlan> {
+/// A shape that bends: one that is not static, and says what it is.
+fn soft(scene: &Scene, handle: Handle, known: &SoftBodies) -> Option<SoftPlan> {
     let object = scene.object(handle).ok()?;
     let shape = object.shape().ok()?;
     let flags = scene.calculated_model_property(handle);
     if shape.dynamics.is_static || flags.contains(ModelFlags::NOT_DYNAMIC) {
         return None;
     }
-    let rope = object.rope()?;
+    let text = object.soft_text()?;
+    let soft = known
+        .known(handle, &text)
+        .or_else(|| object.soft().map(Rc::new))?;
     let mut surface = surface(scene, handle, shape);
     if !shape.dynamics.respondable || flags.contains(ModelFlags::NOT_RESPONDABLE) {
         (surface.mask, surface.further_bits) = (0, 0);
     }
-    Some(RopePlan {
+    Some(SoftPlan {
         uid: object.uid(),
-        rope,
+        soft,
+        text,
         pins: object.pins(),
         surface,
     })

@@ -74,7 +74,7 @@ impl Dynamics {
             Vec::new()
         };
         if seen {
-            self.report_ropes(scene);
+            self.report_soft_bodies(scene);
         }
         self.contacts
             .add_sub_step(&world, self.mechanisms.contacts(), step);

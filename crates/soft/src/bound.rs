@@ -254,8 +254,7 @@ fn place_of(hold: &Hold, bodies: &Bodies) -> V3 {
 
 /// Adds the forces of contacts.
 pub(crate) fn add_contacts(
-    contacts: &[Contact],
-    limits: &[f64],
+    (contacts, limits): (&[Contact], &[f64]),
     rods: &[Rod],
     trials: &[Vec<Node>],
     step: f64,

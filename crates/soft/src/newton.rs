@@ -297,8 +297,7 @@ impl Solver {
         }
         let (trials, equations) = (&self.trials, &mut self.equations);
         add_contacts(
-            contacts,
-            &self.limits,
+            (contacts, &self.limits),
             rods,
             trials,
             step.length,

@@ -1,18 +1,21 @@
-//! Where ropes are held.
+//! Where what is soft is held.
+
+use std::collections::BTreeSet;
 
 use nalgebra::Point3;
 use rapier3d_f64::prelude::Collider;
-use scene::shape::rope::Pin;
+use scene::shape::soft::Pin;
 use scene::{Handle, Pose, Scene};
-use soft::{Hold, Rod, Target, V3};
+use soft::{Hold, Target, V3};
 
 use super::coupling::Coupled;
+use super::part::Part;
 use crate::bodies::Bodies;
 use crate::convert::{from_pose, to_vector};
-use crate::plan::RopePlan;
+use crate::plan::SoftPlan;
 use crate::world::World;
 
-/// Nodes beside a pin that do not touch the object that holds it, beside those within it.
+/// Rings of nodes around a pin that do not touch the object that holds it, beside those within it.
 const EXEMPT: usize = 2;
 
 /// A pin in the physics.
@@ -24,9 +27,9 @@ pub(super) struct Held {
     way: [Pose; 2],
     /// In the frame of the object.
     clamp: Option<Clamp>,
-    /// The shape that the object belongs to, if it collides: the rope does not touch it so many nodes from here.
+    /// The shape that the object belongs to, if it collides: these nodes do not touch it.
     carrier: Option<Handle>,
-    exempt: usize,
+    exempt: BTreeSet<usize>,
 }
 
 /// What is held of an edge beside the pinned node.
@@ -41,36 +44,30 @@ struct Clamp {
 }
 
 impl Clamp {
-    fn new(pin: &Pin, rod: &Rod, object: &Pose) -> Self {
-        let last = rod.len() - 1;
-        let edge = pin.point.min(last - 1);
-        let node = if pin.point == last {
-            last - 1
-        } else {
-            edge + 1
-        };
+    fn new(pin: &Pin, part: &impl Part, object: &Pose) -> Option<Self> {
+        let (node, edge, direction) = part.clamp(pin.point)?;
         let into = object.inverse();
-        let along = into.rotation * (rod.point(node) - rod.point(pin.point));
-        Self {
+        let along = into.rotation * (part.point(node) - part.point(pin.point));
+        Some(Self {
             node,
             place: V3::from(pin.place) + along,
             edge,
-            direction: into.rotation * rod.direction(edge),
-        }
+            direction: into.rotation * direction,
+        })
     }
 }
 
 impl Held {
-    /// The pins of a rope. `before`: those that it had.
+    /// The pins of something soft. `before`: those that it had.
     pub(super) fn all(
-        plan: &RopePlan,
-        rod: &Rod,
+        plan: &SoftPlan,
+        part: &impl Part,
         before: Vec<Self>,
         bodies: &Bodies,
         world: &World,
         scene: &Scene,
     ) -> Vec<Self> {
-        let is_there = |pin: &&Pin| pin.point < plan.rope.points.len();
+        let is_there = |pin: &&Pin| pin.point < part.len();
         let new = |pin: &Pin| {
             let pose = pose_of(pin, scene);
             let carrier = pin
@@ -97,13 +94,18 @@ impl Held {
                 body: offset,
                 way: known.map_or([pose; 2], |held| held.way),
                 clamp: known.map_or_else(
-                    || pin.clamped.then(|| Clamp::new(pin, rod, &pose)),
+                    || pin.clamped.then(|| Clamp::new(pin, part, &pose)).flatten(),
                     |held| held.clamp,
                 ),
                 carrier,
                 exempt: known.map_or_else(
-                    || carrier.map_or(0, |shape| exempt(pin.point, rod, shape, bodies, world)),
-                    |held| held.exempt,
+                    || {
+                        let carrier = carrier.iter();
+                        let nodes = carrier
+                            .flat_map(|shape| exempt(pin.point, part, *shape, bodies, world));
+                        nodes.collect()
+                    },
+                    |held| held.exempt.clone(),
                 ),
             }
         };
@@ -153,37 +155,58 @@ impl Held {
         holds
     }
 
-    /// The force on the rope in the last sub-step, N: of both nodes of a clamped edge.
-    pub(super) fn force(&self, rod: &Rod) -> [f64; 3] {
+    /// The force on what is held in the last sub-step, N: of both nodes of a clamped edge.
+    pub(super) fn force(&self, part: &impl Part) -> [f64; 3] {
         let clamped = self.clamp.map(|clamp| clamp.node);
         let is_own = |hold: &&Hold| hold.node == self.pin.point || Some(hold.node) == clamped;
-        let forces = rod.holds.iter().filter(is_own).map(|hold| hold.force);
+        let forces = part.held().iter().filter(is_own).map(|hold| hold.force);
         forces.sum::<V3>().into()
     }
 
-    /// Whether a node of the rope is in or beside a shape that holds it.
+    /// Whether a node is in or beside a shape that holds it.
     pub(super) fn exempts(&self, node: usize, shape: Handle) -> bool {
-        self.carrier == Some(shape) && node.abs_diff(self.pin.point) <= self.exempt
+        self.carrier == Some(shape) && self.exempt.contains(&node)
     }
 }
 
-/// Number of nodes from a pinned one on that do not touch the shape that holds it: those that begin within it, and some more.
-fn exempt(pinned: usize, rod: &Rod, shape: Handle, bodies: &Bodies, world: &World) -> usize {
+/// The nodes around a pinned one that do not touch the shape that holds it: those that begin within it, and some more.
+fn exempt(
+    pinned: usize,
+    part: &impl Part,
+    shape: Handle,
+    bodies: &Bodies,
+    world: &World,
+) -> BTreeSet<usize> {
     let body = bodies.get(shape);
     let colliders = body.iter().flat_map(|body| &body.colliders);
     let colliders: Vec<_> = colliders
         .filter_map(|handle| world.colliders.get(*handle))
         .collect();
-    let is_within = |&node: &usize| {
-        let point = rod.point(node);
+    let is_within = |node: usize| {
+        let point = part.point(node);
         let point = to_vector([point.x, point.y, point.z]);
         let holds =
             |collider: &&Collider| collider.shape().contains_point(collider.position(), point);
         colliders.iter().any(holds)
     };
-    let after = (pinned..rod.len()).take_while(is_within).count();
-    let before = (0..pinned).rev().take_while(is_within).count();
-    EXEMPT + after.max(before)
+    let mut exempt = BTreeSet::from([pinned]);
+    let mut rings = EXEMPT;
+    if is_within(pinned) {
+        rings += 1;
+        let mut next = vec![pinned];
+        while let Some(node) = next.pop() {
+            let within = part
+                .neighbours(node)
+                .into_iter()
+                .filter(|node| is_within(*node));
+            next.extend(within.filter(|node| exempt.insert(*node)));
+        }
+    }
+    for _ in 0..rings {
+        let beside = exempt.iter().flat_map(|node| part.neighbours(*node));
+        exempt = beside.collect();
+    }
+    exempt
 }
 
 fn pose_of(pin: &Pin, scene: &Scene) -> Pose {

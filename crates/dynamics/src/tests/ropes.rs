@@ -2,7 +2,8 @@
 
 use super::*;
 use scene::appearance::colour::Colour;
-use scene::shape::rope::{Pin, Rope};
+use scene::shape::soft::rope::Rope;
+use scene::shape::soft::{Pin, Soft};
 use scene::shape::{Appearance, Material, Shape};
 
 /// A rope of 100 g/m through points of the world.
@@ -43,23 +44,25 @@ impl Bench {
     fn rope(&mut self, rope: &Rope, pins: &[Pin]) -> Handle {
         let appearance = Appearance::new([0.5; 3]);
         assert_eq!(appearance.colour, Colour::new([0.5; 3]));
-        let mut shape = Shape::of_rope(rope, appearance).expect("a rope");
+        let mut shape = Shape::of_soft(&Soft::Rope(rope.clone()), appearance).expect("a rope");
         shape.material = Material::of_friction(1.0);
         let handle = self
             .scene
             .add("rope", Kind::Shape(Box::new(shape)))
             .expect("room");
-        self.scene.set_rope(handle, rope).expect("exists");
+        self.scene
+            .set_soft(handle, &Soft::Rope(rope.clone()))
+            .expect("exists");
         self.scene.set_pins(handle, pins).expect("exists");
         handle
     }
 
     fn point(&self, rope: Handle, point: usize) -> [f64; 3] {
-        self.scene.rope_form(rope).expect("a rope").points[point]
+        self.scene.soft_form(rope).expect("a rope").points[point]
     }
 
     fn tension(&self, rope: Handle, edge: usize) -> f64 {
-        self.scene.rope_form(rope).expect("a rope").tensions[edge]
+        self.scene.soft_form(rope).expect("a rope").tensions[edge]
     }
 }
 
@@ -77,7 +80,7 @@ fn a_rope_hangs_from_the_world_and_bears_a_box() {
     near(bench.tension(rope, 19), 2.0 * 9.81, 0.05);
     near(bench.tension(rope, 0), 2.05 * 9.81, 0.05);
     near(bench.height(body), 0.45, 1e-3);
-    let form = bench.scene.rope_form(rope).expect("a rope");
+    let form = bench.scene.soft_form(rope).expect("a rope");
     near(form.pin_forces[0][2], 2.05 * 9.81, 0.05);
     near(form.pin_forces[1][2], -2.0 * 9.81, 0.05);
 }
@@ -209,7 +212,7 @@ fn the_number_of_threads_does_not_count() {
             &[pin(0, Some(body), [0.0, 0.0, 0.1])],
         );
         bench.run(20);
-        bench.scene.rope_form(rope).expect("a rope").points
+        bench.scene.soft_form(rope).expect("a rope").points
     };
     assert_eq!(once(1), once(4));
 }

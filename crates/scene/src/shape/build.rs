@@ -29,7 +29,7 @@ impl Shape {
             velocity: Velocity::default(),
             force: [0.0; 3],
             torque: [0.0; 3],
-            rope_form: None,
+            soft_form: None,
         }
     }
 

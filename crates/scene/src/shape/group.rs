@@ -205,7 +205,7 @@ impl Scene {
                 mass,
                 dynamics: shape.dynamics.clone(),
                 material: shape.material.clone(),
-                rope_form: None,
+                soft_form: None,
                 ..*shape
             },
         )?;

@@ -10,7 +10,7 @@ mod moving_surface;
 pub mod options;
 pub(crate) mod primitives;
 pub mod reshape;
-pub mod rope;
+pub mod soft;
 
 use std::rc::Rc;
 
@@ -44,8 +44,8 @@ pub struct Shape {
     pub force: [f64; 3],
     /// Torque applied by scripts since the last dynamics call, N m, world axes.
     pub torque: [f64; 3],
-    /// Of a rope that the physics moves.
-    pub rope_form: Option<Rc<rope::RopeForm>>,
+    /// Of something soft that the physics moves.
+    pub soft_form: Option<Rc<soft::SoftForm>>,
 }
 
 /// One mesh of a shape.

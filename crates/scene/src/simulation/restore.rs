@@ -135,21 +135,24 @@ impl Scene {
             // The handles were just read from the tree.
             let _ = self.restore_object(handle, &initial);
         }
-        self.restore_ropes();
+        self.restore_soft();
     }
 
-    /// Ropes are where they began.
-    fn restore_ropes(&mut self) {
+    /// What is soft is where it began.
+    fn restore_soft(&mut self) {
         let is_moved = |object: &&Object| {
             let shape = object.shape();
-            shape.is_ok_and(|shape| shape.rope_form.is_some())
+            shape.is_ok_and(|shape| shape.soft_form.is_some())
         };
         let moved = self.objects().filter(is_moved).map(Object::handle);
         for handle in moved.collect::<Vec<_>>() {
-            if self.report_rope(handle, None).is_err() {
-                // It is no rope any more, and keeps the form it was given.
+            let soft = self.object(handle).ok().and_then(Object::soft);
+            let is_restored =
+                soft.is_some_and(|soft| self.report_soft_form(handle, &soft, None).is_ok());
+            if !is_restored {
+                // It is not soft any more, and keeps the form it was given.
                 let _ = self.modify(handle, Field::Geometry, |object| {
-                    object.shape_mut().map(|shape| shape.rope_form = None)
+                    object.shape_mut().map(|shape| shape.soft_form = None)
                 });
             }
         }

@@ -40,6 +40,11 @@ impl Blocks {
         blocks
     }
 
+    /// The columns of a row.
+    pub(crate) fn columns(&self, row: usize) -> &[usize] {
+        &self.columns[self.starts[row]..self.starts[row + 1]]
+    }
+
     /// Where the block of two nodes is, which share an element.
     pub(crate) fn slot(&self, row: usize, column: usize) -> usize {
         let row = self.starts[row]..self.starts[row + 1];

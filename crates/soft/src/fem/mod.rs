@@ -48,12 +48,13 @@ pub use newton::solve;
 /// A cloth, a membrane around gas, or a volume.
 #[derive(Debug, Clone)]
 pub struct Deformable {
-    /// What it is made of.
-    pub material: Material,
+    material: Material,
     /// Where nodes are held; their directions do not matter.
     pub holds: Vec<Hold>,
     /// Kilograms.
     masses: Vec<f64>,
+    /// Whether nodes belong to the surface.
+    on_surface: Vec<bool>,
     places: Vec<V3>,
     velocities: Vec<V3>,
     membranes: Vec<Membrane>,
@@ -134,6 +135,7 @@ impl Deformable {
             material,
             holds: Vec::new(),
             masses,
+            on_surface: on_surface(surface, points.len()),
             velocities: vec![V3::zeros(); points.len()],
             places: points.to_vec(),
             membranes: Vec::new(),
@@ -184,6 +186,21 @@ impl Deformable {
     pub fn pressure(&self) -> f64 {
         let gas = self.gas.map(|gas| gas.pressure(self.enclosed()));
         gas.unwrap_or(0.0)
+    }
+
+    /// What it is made of.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// The nodes that share an element with one, and that one.
+    pub fn neighbours(&self, node: usize) -> &[usize] {
+        self.blocks.columns(node)
+    }
+
+    /// Whether a node belongs to the surface.
+    pub fn is_on_surface(&self, node: usize) -> bool {
+        self.on_surface[node]
     }
 
     /// Number of nodes.
@@ -303,6 +320,16 @@ impl Deformable {
             self.tear(triangle);
         }
     }
+}
+
+fn on_surface(surface: &[[usize; 3]], nodes: usize) -> Vec<bool> {
+    let mut on_surface = vec![false; nodes];
+    for node in surface.as_flattened() {
+        if let Some(is_on) = on_surface.get_mut(*node) {
+            *is_on = true;
+        }
+    }
+    on_surface
 }
 
 fn all_of<const N: usize>(points: &[V3], nodes: &[usize; N]) -> Option<[V3; N]> {

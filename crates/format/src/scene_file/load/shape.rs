@@ -43,7 +43,7 @@ pub(super) fn shape(context: &mut Context<'_>, chunk: &Chunk) -> Result<Shape, S
         velocity: Velocity::default(),
         force: [0.0; 3],
         torque: [0.0; 3],
-        rope_form: None,
+        soft_form: None,
         parts,
     };
     if let [part] = shape.parts.as_mut_slice() {

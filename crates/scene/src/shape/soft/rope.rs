@@ -1,18 +1,9 @@
-//! Ropes and cables: what a shape says of itself that the physics bends, and the form that it has meanwhile.
-
-use std::fmt::Write;
-use std::rc::Rc;
+//! Ropes and cables: what they are, and their mesh.
 
 use geometry::Mesh;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
-use super::{Appearance, Shape};
-use crate::{Data, Field, Handle, Object, Pose, References, Scene, SceneError, SceneResult};
-
-/// Name of the custom data of a shape that say what rope it is: see [`Rope`].
-pub const ROPE: &str = "softRope";
-/// Name of the custom data that say where it is held: see [`Pin`]. The objects are references under the same tag.
-pub const PINS: &str = "softPins";
+use super::text::{semicolon, tuples, words};
 
 /// Largest number of points of a rope.
 pub const MAX_POINTS: usize = 2000;
@@ -48,32 +39,6 @@ pub struct Rope {
     pub points: Vec<[f64; 3]>,
 }
 
-/// Where a rope is held.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pin {
-    /// The point of the rope.
-    pub point: usize,
-    /// The object that holds it; None: the world.
-    pub holder: Option<Handle>,
-    /// In the frame of that object, metres.
-    pub place: [f64; 3],
-    /// Whether the edge that begins there (ends there at the last point) keeps its direction and does not turn.
-    pub clamped: bool,
-}
-
-/// The form of a rope that the physics moves.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RopeForm {
-    /// In the world, metres.
-    pub points: Vec<[f64; 3]>,
-    /// By edge, N.
-    pub tensions: Vec<f64>,
-    /// By edge: whether it is broken.
-    pub broken: Vec<bool>,
-    /// By pin, in their order: the force on the rope, N.
-    pub pin_forces: Vec<[f64; 3]>,
-}
-
 impl Rope {
     /// What a text says; None if it describes no rope.
     pub fn parse(text: &str) -> Option<Self> {
@@ -95,7 +60,7 @@ impl Rope {
             match name {
                 "straight" => rope.straight = value != "0",
                 "self" => rope.touches_itself = value != "0",
-                "points" => rope.points = value.split(';').map(triple).collect::<Option<_>>()?,
+                "points" => rope.points = tuples(value)?,
                 _ => {
                     if let Some(field) = rope.number(name) {
                         *field = value.parse().ok()?;
@@ -165,192 +130,12 @@ impl std::fmt::Display for Rope {
             u8::from(self.straight),
             u8::from(self.touches_itself)
         )?;
-        let points: Vec<String> = self.points.iter().map(comma).collect();
-        write!(f, "points={}", points.join(";"))
-    }
-}
-
-fn words(text: &str) -> impl Iterator<Item = (&str, &str)> {
-    text.split_whitespace()
-        .filter_map(|word| word.split_once('='))
-}
-
-fn comma(point: &[f64; 3]) -> String {
-    format!("{},{},{}", point[0], point[1], point[2])
-}
-
-fn triple(text: &str) -> Option<[f64; 3]> {
-    let mut numbers = text.split(',').map(|part| part.parse::<f64>().ok());
-    let triple = [numbers.next()??, numbers.next()??, numbers.next()??];
-    numbers.next().is_none().then_some(triple)
-}
-
-impl Object {
-    /// What rope this shape is, if it is one.
-    pub fn rope(&self) -> Option<Rope> {
-        Rope::parse(&self.text(ROPE)?)
-    }
-
-    fn text(&self, name: &str) -> Option<String> {
-        let (_, value) = self.custom_data.typed(name)?;
-        match value {
-            Data::Text(text) | Data::Buffer(text) => Some(String::from_utf8_lossy(text).into()),
-            _ => None,
-        }
-    }
-
-    /// Where this rope is held. A pin whose object is gone holds nothing.
-    pub fn pins(&self) -> Vec<Pin> {
-        let text = self.text(PINS).unwrap_or_default();
-        let holders = self.referenced(References::Following, PINS);
-        text.lines().filter_map(|line| pin(line, holders)).collect()
-    }
-}
-
-/// A pin in its text: `point=3 holder=0 place=0,0,0 clamped=1`; the holder is one of the references.
-fn pin(line: &str, holders: &[i64]) -> Option<Pin> {
-    let mut pin = Pin {
-        point: 0,
-        holder: None,
-        place: [0.0; 3],
-        clamped: false,
-    };
-    for (name, value) in words(line) {
-        match name {
-            "point" => pin.point = value.parse().ok()?,
-            "holder" => {
-                let raw = holders.get(value.parse::<usize>().ok()?)?;
-                pin.holder = Some(Handle::from_raw(*raw)?);
-            }
-            "place" => pin.place = triple(value)?,
-            "clamped" => pin.clamped = value != "0",
-            _ => {}
-        }
-    }
-    Some(pin)
-}
-
-impl Scene {
-    /// Says where a rope is held.
-    ///
-    /// # Errors
-    /// When there is no such object.
-    pub fn set_pins(&mut self, rope: Handle, pins: &[Pin]) -> SceneResult<()> {
-        let (mut text, mut holders) = (String::new(), Vec::new());
-        for pin in pins {
-            let _ = write!(text, "point={} place={}", pin.point, comma(&pin.place));
-            if let Some(holder) = pin.holder {
-                let _ = write!(text, " holder={}", holders.len());
-                holders.push(holder.raw());
-            }
-            if pin.clamped {
-                text.push_str(" clamped=1");
-            }
-            text.push('\n');
-        }
-        self.set_references(rope, References::Following, PINS, &holders)?;
-        self.set_text(rope, PINS, text)
-    }
-
-    /// Makes a shape a rope.
-    ///
-    /// # Errors
-    /// When there is no such object.
-    pub fn set_rope(&mut self, shape: Handle, rope: &Rope) -> SceneResult<()> {
-        self.set_text(shape, ROPE, rope.to_string())
-    }
-
-    fn set_text(&mut self, object: Handle, name: &str, text: String) -> SceneResult<()> {
-        let value = (crate::ValueType::String, Data::Text(text.into_bytes()));
-        self.edit_named_values(
-            Some(object),
-            crate::Namespace::CustomData,
-            crate::Edit::Name(name, Some(value)),
-        )?;
-        self.modify(object, Field::Dynamics, |_| ())
-    }
-
-    /// The form of a rope: where the physics has it, or where it begins.
-    ///
-    /// # Errors
-    /// When the shape is no rope.
-    pub fn rope_form(&self, shape: Handle) -> SceneResult<RopeForm> {
-        let object = self.object(shape)?;
-        if let Some(form) = &object.shape()?.rope_form {
-            return Ok(RopeForm::clone(form));
-        }
-        let rope = object.rope().ok_or_else(no_rope)?;
-        let pose = self.world_pose(shape)?;
-        let edges = rope.points.len() - 1;
-        Ok(RopeForm {
-            points: rope
-                .points
-                .iter()
-                .map(|point| (pose * Point3::from(*point)).into())
-                .collect(),
-            tensions: vec![0.0; edges],
-            broken: vec![false; edges],
-            pin_forces: Vec::new(),
-        })
-    }
-
-    /// Takes over the form that the physics gives a rope; None: that which it begins with.
-    ///
-    /// # Errors
-    /// When the shape is no rope.
-    pub fn report_rope(&mut self, shape: Handle, form: Option<RopeForm>) -> SceneResult<()> {
-        let rope = self.object(shape)?.rope().ok_or_else(no_rope)?;
-        let (points, broken) = match &form {
-            Some(form) => {
-                let into = self.world_pose(shape)?.inverse();
-                let local = |point: &[f64; 3]| (into * Point3::from(*point)).into();
-                (form.points.iter().map(local).collect(), form.broken.clone())
-            }
-            None => (rope.points.clone(), Vec::new()),
-        };
-        self.try_modify(shape, Field::Geometry, |object| {
-            let shape = object.shape_mut()?;
-            shape.rope_form = form.map(Rc::new);
-            shape.show_rope(rope.radius, &points, &broken)
-        })
-    }
-}
-
-fn no_rope() -> SceneError {
-    SceneError::Refused("the shape is no rope.".into())
-}
-
-impl Shape {
-    /// A rope as a shape, with points in the frame of the shape.
-    ///
-    /// # Errors
-    /// When it has no form.
-    pub fn of_rope(rope: &Rope, appearance: Appearance) -> SceneResult<Self> {
-        let mut mesh = tube(&rope.points, rope.radius, &[]);
-        mesh.compute_normals(appearance.shading_angle);
-        let mut shape = Self::from_mesh(mesh, appearance)?;
-        shape.show_rope(rope.radius, &rope.points, &[])?;
-        shape.dynamics.respondable = true;
-        shape.dynamics.is_static = false;
-        Ok(shape)
-    }
-
-    /// Gives the mesh the form of a rope through points in the frame of the shape.
-    fn show_rope(&mut self, radius: f64, points: &[[f64; 3]], broken: &[bool]) -> SceneResult<()> {
-        let part = self.parts.first_mut().ok_or(SceneError::InvalidData)?;
-        let mut mesh = tube(points, radius, broken);
-        mesh.compute_normals(part.appearance.shading_angle.max(1.0));
-        let fitted = mesh.bounding_box(&nalgebra::UnitQuaternion::identity());
-        self.bounding_box = fitted.ok_or(SceneError::InvalidData)?;
-        part.pose = Pose::identity();
-        part.mesh = Rc::new(mesh);
-        part.convex = false;
-        Ok(())
+        write!(f, "points={}", semicolon(&self.points))
     }
 }
 
 /// A tube around points, without the edges that are broken.
-fn tube(points: &[[f64; 3]], radius: f64, broken: &[bool]) -> Mesh {
+pub(super) fn tube(points: &[[f64; 3]], radius: f64, broken: &[bool]) -> Mesh {
     let mut mesh = Mesh::default();
     let points: Vec<Vector3<f64>> = points.iter().map(|point| Vector3::from(*point)).collect();
     let mut first = 0;
@@ -429,6 +214,3 @@ fn add_cap(start: u32, faces_back: bool, mesh: &mut Mesh) {
         });
     }
 }
-
-#[cfg(test)]
-mod tests;
