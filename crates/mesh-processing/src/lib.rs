@@ -1,5 +1,5 @@
 //! Meshes and points processed: [`decimate`] makes meshes of fewer triangles, [`register`] moves points onto others, [`surface`]
-//! makes a mesh of points, a [`KdTree`] finds points near
+//! makes a mesh of points, [`tetrahedra()`] fill a closed mesh, a [`KdTree`] finds points near
 //! others. Coordinates are in any one unit.
 //!
 //! # Why no library
@@ -31,8 +31,10 @@ mod decimate;
 mod kd_tree;
 mod registration;
 mod surface;
+mod tetrahedra;
 
 pub use decimate::{Target, Triangles, decimate};
 pub use kd_tree::{KdTree, Neighbour};
 pub use registration::{Registration, register};
 pub use surface::{SurfaceOptions, surface};
+pub use tetrahedra::{Tetrahedra, tetrahedra};
