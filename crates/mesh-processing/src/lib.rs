@@ -37,4 +37,4 @@ pub use decimate::{Target, Triangles, decimate};
 pub use kd_tree::{KdTree, Neighbour};
 pub use registration::{Registration, register};
 pub use surface::{SurfaceOptions, surface};
-pub use tetrahedra::{Tetrahedra, tetrahedra};
+pub use tetrahedra::{Tetrahedra, faces, grid, tetrahedra};

@@ -44,6 +44,34 @@ pub fn tetrahedra(
     Ok((points.collect(), lattice.elements))
 }
 
+/// Points and tetrahedra of a box of cells from a corner on.
+pub fn grid(corner: [f64; 3], cell: [f64; 3], counts: [usize; 3]) -> Tetrahedra {
+    let grid = Grid {
+        low: corner.into(),
+        cell: cell.into(),
+        counts,
+    };
+    let [x, y, _] = counts;
+    let cells = (0..counts.iter().product()).map(|n: usize| [n % x, n / x % y, n / x / y]);
+    let lattice = grid.lattice(&cells.collect::<Vec<_>>());
+    let points = lattice.points.into_iter().map(Into::into);
+    (points.collect(), lattice.elements)
+}
+
+/// The faces of tetrahedra in positive order that belong to one of them only, facing outwards.
+pub fn faces(tetrahedra: &[[u32; 4]]) -> Vec<[u32; 3]> {
+    let mut faces: BTreeMap<[u32; 3], ([u32; 3], usize)> = BTreeMap::new();
+    for [a, b, c, d] in tetrahedra {
+        for face in [[*a, *c, *b], [*a, *b, *d], [*a, *d, *c], [*b, *c, *d]] {
+            let mut name = face;
+            name.sort_unstable();
+            faces.entry(name).or_insert((face, 0)).1 += 1;
+        }
+    }
+    let own = faces.into_values().filter(|(_, count)| *count == 1);
+    own.map(|(face, _)| face).collect()
+}
+
 /// A mesh whose edges belong to two triangles each.
 struct Closed {
     triangles: Vec<[V3; 3]>,
@@ -317,15 +345,7 @@ impl Lattice {
 
     /// The points of faces that belong to one element only.
     fn boundary(&self) -> BTreeSet<u32> {
-        let mut faces: BTreeMap<[u32; 3], usize> = BTreeMap::new();
-        for [a, b, c, d] in &self.elements {
-            for mut face in [[*a, *b, *c], [*a, *b, *d], [*a, *c, *d], [*b, *c, *d]] {
-                face.sort_unstable();
-                *faces.entry(face).or_default() += 1;
-            }
-        }
-        let own = faces.into_iter().filter(|(_, count)| *count == 1);
-        own.flat_map(|(face, _)| face).collect()
+        faces(&self.elements).into_iter().flatten().collect()
     }
 }
 
@@ -393,6 +413,16 @@ mod tests {
         let filled = tetrahedra(&vertices, &triangles, 0.1).unwrap();
         assert_eq!((filled.0.len(), filled.1.len()), (64, 162));
         assert!((total(&filled) - 0.027).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_grid_has_a_closed_surface() {
+        let (points, elements) = grid([1.0, 0.0, 0.0], [0.1, 0.2, 0.3], [3, 2, 1]);
+        assert_eq!((points.len(), elements.len()), (24, 36));
+        assert!((total(&(points.clone(), elements.clone())) - 0.3 * 0.4 * 0.3).abs() < 1e-12);
+        let faces = faces(&elements);
+        assert_eq!(faces.len(), 2 * 2 * (6 + 3 + 2));
+        assert!(Closed::new(&points, &faces).is_ok());
     }
 
     #[test]

@@ -156,9 +156,7 @@ impl<P: Part> Group<P> {
         {
             return Vec::new();
         }
-        let fastest = self.parts.iter().map(Part::fastest).fold(0.0, f64::max);
-        let margin = MARGIN + 2.0 * fastest * start.step;
-        P::between(&self.parts, margin, &|first, second| {
+        P::between(&self.parts, MARGIN, start.step, &|first, second| {
             let [a, b] = [first, second].map(|number| &self.all[number]);
             if first == second {
                 let own = a.friction(b.plan.surface.friction);
@@ -178,6 +176,7 @@ impl<P: Part> Group<P> {
                     .collect(),
                 broken: (0..tensions.len()).map(|i| part.is_broken(i)).collect(),
                 tensions,
+                pressure: part.pressure(),
                 pin_forces: placed.held.iter().map(|held| held.force(part)).collect(),
             };
             // The shape may have been removed in the meantime.

@@ -35,6 +35,8 @@ pub(super) trait Part: Sized {
     /// Something has changed at once.
     fn forget_history(&mut self);
     fn tensions(&self) -> Vec<f64>;
+    /// Of the gas within, above that of the air outside, Pa.
+    fn pressure(&self) -> f64;
     fn is_broken(&self, element: usize) -> bool;
 
     /// Puts it where a script has put it.
@@ -54,7 +56,7 @@ pub(super) trait Part: Sized {
     /// The points at which it may touch an obstacle.
     fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<Self::Contact>;
     /// The points at which some of them may touch each other and themselves, with the friction of two of them.
-    fn between(parts: &[Self], margin: f64, friction: &Friction) -> Vec<Self::Contact>;
+    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<Self::Contact>;
     /// A contact is with a body that forces move.
     fn is_with(contact: &mut Self::Contact, body: usize);
 
@@ -72,8 +74,9 @@ impl Part for Rod {
         touches::of_rod(self, search, obstacle)
     }
 
-    fn between(parts: &[Self], margin: f64, friction: &Friction) -> Vec<Contact> {
-        soft::between(parts, margin, friction)
+    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<Contact> {
+        let fastest = parts.iter().map(Part::fastest).fold(0.0, f64::max);
+        soft::between(parts, margin + 2.0 * fastest * step, friction)
     }
 
     fn is_with(contact: &mut Contact, body: usize) {
@@ -140,6 +143,10 @@ impl Part for Rod {
         self.tensions().to_vec()
     }
 
+    fn pressure(&self) -> f64 {
+        0.0
+    }
+
     fn is_broken(&self, element: usize) -> bool {
         self.is_broken(element)
     }
@@ -165,8 +172,8 @@ impl Part for Deformable {
         touches::of_deformable(self, search, obstacle)
     }
 
-    fn between(parts: &[Self], margin: f64, friction: &Friction) -> Vec<fem::Contact> {
-        fem::nearby(parts, margin, friction)
+    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<fem::Contact> {
+        fem::nearby(parts, margin, step, friction)
     }
 
     fn is_with(contact: &mut fem::Contact, body: usize) {
@@ -179,19 +186,25 @@ impl Part for Deformable {
         };
         // At rest it is as it began, wherever it is now.
         let rest: Vec<V3> = body.points.iter().map(|point| V3::from(*point)).collect();
+        let triangles: Vec<_> = body
+            .triangles
+            .iter()
+            .map(|nodes| nodes.map(index))
+            .collect();
         let mut part = if body.is_volume() {
             let tetrahedra: Vec<_> = body
                 .tetrahedra
                 .iter()
                 .map(|nodes| nodes.map(index))
                 .collect();
-            Self::volume(&rest, &tetrahedra, body.density, elasticity_of(body))?
+            Self::volume(
+                &rest,
+                &tetrahedra,
+                &triangles,
+                body.density,
+                elasticity_of(body),
+            )?
         } else {
-            let triangles: Vec<_> = body
-                .triangles
-                .iter()
-                .map(|nodes| nodes.map(index))
-                .collect();
             Self::cloth(
                 &rest,
                 &triangles,
@@ -251,6 +264,10 @@ impl Part for Deformable {
 
     fn tensions(&self) -> Vec<f64> {
         self.tensions()
+    }
+
+    fn pressure(&self) -> f64 {
+        self.pressure()
     }
 
     fn is_broken(&self, element: usize) -> bool {

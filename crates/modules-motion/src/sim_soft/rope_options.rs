@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use super::options::{check_names, number, numbers, positive, triples, truth, wrong};
 use crate::{ApiError, Result};
 use scene::Data;
-use scene::shape::rope::{MAX_POINTS, Rope};
+use scene::shape::soft::rope::{MAX_POINTS, Rope};
 
 /// How much less than a solid rod a rope resists bending and twist.
 const ROPE_BENDING: f64 = 1e-3;
@@ -110,91 +111,12 @@ pub(super) fn described(options: &Data, kind: Kind) -> Result<Described> {
     })
 }
 
-/// Refuses options that mean nothing.
-pub(super) fn check_names(options: &Data, names: &[&str]) -> Result<()> {
-    let Data::Map(entries) = options else {
-        return Ok(());
-    };
-    for (key, _) in entries {
-        let scene::Key::Text(name) = key else {
-            return Err(ApiError::Other("options have names.".into()));
-        };
-        let name = String::from_utf8_lossy(name);
-        if !names.contains(&&*name) {
-            let known = names.join(", ");
-            return Err(ApiError::Other(format!(
-                "there is no option '{name}', but: {known}."
-            )));
-        }
-    }
-    Ok(())
-}
-
-fn wrong(name: &str) -> ApiError {
-    ApiError::Other(format!("invalid value of option '{name}'."))
-}
-
-fn given<'a>(options: &'a Data, name: &str) -> Option<&'a Data> {
-    options.field(name).filter(|value| **value != Data::Nil)
-}
-
-fn number(options: &Data, name: &str, default: f64) -> Result<f64> {
-    let Some(value) = given(options, name) else {
-        return Ok(default);
-    };
-    let value = value.as_f64().filter(|x| x.is_finite() && *x >= 0.0);
-    value.ok_or_else(|| wrong(name))
-}
-
-fn positive(options: &Data, name: &str, default: f64) -> Result<f64> {
-    let value = number(options, name, default)?;
-    if value > 0.0 {
-        Ok(value)
-    } else {
-        Err(wrong(name))
-    }
-}
-
-pub(super) fn truth(options: &Data, name: &str, default: bool) -> Result<bool> {
-    match given(options, name) {
-        None => Ok(default),
-        Some(Data::Bool(value)) => Ok(*value),
-        Some(_) => Err(wrong(name)),
-    }
-}
-
-/// Numbers of a list.
-fn list(options: &Data, name: &str) -> Result<Option<Vec<f64>>> {
-    let Some(value) = given(options, name) else {
-        return Ok(None);
-    };
-    let Data::Array(entries) = value else {
-        return Err(wrong(name));
-    };
-    let numbers: Option<Vec<f64>> = entries.iter().map(Data::as_f64).collect();
-    Ok(Some(numbers.ok_or_else(|| wrong(name))?))
-}
-
-pub(super) fn numbers<const N: usize>(options: &Data, name: &str) -> Result<Option<[f64; N]>> {
-    let Some(list) = list(options, name)? else {
-        return Ok(None);
-    };
-    let numbers: Option<[f64; N]> = list.try_into().ok();
-    Ok(Some(numbers.ok_or_else(|| wrong(name))?))
-}
-
 /// The points of the rope, of equal distance if their number is given.
 fn points(options: &Data) -> Result<Vec<[f64; 3]>> {
-    let listed = list(options, "points")?;
+    let listed = triples(options, "points")?;
     let ends = [numbers(options, "from")?, numbers(options, "to")?];
     let (corners, default) = match (listed, ends) {
-        (Some(numbers), [None, None]) => {
-            let (points, rest) = numbers.as_chunks::<3>();
-            if !rest.is_empty() {
-                return Err(wrong("points"));
-            }
-            (points.to_vec(), 0.0)
-        }
+        (Some(points), [None, None]) => (points, 0.0),
         (None, [Some(from), Some(to)]) => (vec![from, to], EDGES),
         _ => {
             return Err(ApiError::Other(

@@ -11,6 +11,7 @@
 //! - The linear equations are solved by conjugate gradients, with the inverses of the blocks of nodes and bodies as preconditioner. How many iterations that takes
 //!   depends on how far a wave of stress runs in a step, in elements, and not on the size of the mesh: the cost grows linearly with the number of elements.
 //! - Rigid bodies are unknowns as for rods. What is held goes exactly with what holds it. Contacts are as for rods.
+//! - What has nothing to do with each other is solved on its own.
 //! - Largest friction forces are those of the first iterations of a step, so that the rest of them has a potential.
 //!
 //! # Limits
@@ -22,6 +23,7 @@ mod bending;
 mod blocks;
 mod contact;
 mod gas;
+mod islands;
 mod material;
 mod membrane;
 mod nearby;
@@ -29,8 +31,6 @@ mod newton;
 mod sparse;
 mod system;
 mod tetrahedron;
-
-use std::collections::BTreeMap;
 
 use crate::V3;
 use crate::rod::Hold;
@@ -41,9 +41,9 @@ use membrane::Membrane;
 use tetrahedron::Tetrahedron;
 
 pub use contact::{Contact, Spot, Surface};
+pub use islands::solve;
 pub use material::Material;
 pub use nearby::nearby;
-pub use newton::solve;
 
 /// A cloth, a membrane around gas, or a volume.
 #[derive(Debug, Clone)]
@@ -102,10 +102,11 @@ impl Deformable {
         .assembled()
     }
 
-    /// A volume of tetrahedra, each in positive order, with its surface facing outwards. None as for [`cloth`](Self::cloth).
+    /// A volume of tetrahedra, each in positive order, with the triangles of its surface, facing outwards. None as for [`cloth`](Self::cloth).
     pub fn volume(
         points: &[V3],
         tetrahedra: &[[usize; 4]],
+        surface: &[[usize; 3]],
         density: f64,
         material: Material,
     ) -> Option<Self> {
@@ -125,7 +126,7 @@ impl Deformable {
         }
         Self {
             tetrahedra: elements,
-            ..Self::empty(points, masses, &surface_of(tetrahedra), material)
+            ..Self::empty(points, masses, surface, material)
         }
         .assembled()
     }
@@ -335,18 +336,4 @@ fn on_surface(surface: &[[usize; 3]], nodes: usize) -> Vec<bool> {
 fn all_of<const N: usize>(points: &[V3], nodes: &[usize; N]) -> Option<[V3; N]> {
     let is_there = nodes.iter().all(|node| *node < points.len());
     is_there.then(|| nodes.map(|node| points[node]))
-}
-
-/// The faces of tetrahedra that belong to one of them only, facing outwards.
-fn surface_of(tetrahedra: &[[usize; 4]]) -> Vec<[usize; 3]> {
-    let mut faces: BTreeMap<[usize; 3], ([usize; 3], usize)> = BTreeMap::new();
-    for [a, b, c, d] in tetrahedra {
-        for face in [[*a, *c, *b], [*a, *b, *d], [*a, *d, *c], [*b, *c, *d]] {
-            let mut name = face;
-            name.sort_unstable();
-            faces.entry(name).or_insert((face, 0)).1 += 1;
-        }
-    }
-    let own = faces.into_values().filter(|(_, count)| *count == 1);
-    own.map(|(face, _)| face).collect()
 }

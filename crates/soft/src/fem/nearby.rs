@@ -21,23 +21,21 @@ struct Bounds {
     high: V3,
 }
 
-/// The points at which cloths and volumes are or come nearer than `margin` (metres) to each other. `friction`: of a pair of parts; None if they do not touch.
+/// The points at which cloths and volumes are nearer than `margin` (metres) to each other, or come so in a step of `step` seconds. `friction`: of a pair of parts; None if they do not touch.
 ///
 /// Nodes against triangles, and edges against edges. What shares a node does not touch.
 pub fn nearby(
     parts: &[Deformable],
     margin: f64,
+    step: f64,
     friction: impl Fn(usize, usize) -> Option<f64>,
 ) -> Vec<Contact> {
     let search = Search {
         parts,
         margin,
-        size: cell_size(parts, margin),
+        step,
     };
     let mut contacts = Vec::new();
-    if search.size <= 0.0 {
-        return contacts;
-    }
     let mut add = |first: Element, second: Element| {
         if let Some(friction) = friction(first.part, second.part) {
             contacts.extend(search.touch(first, second, friction));
@@ -56,20 +54,7 @@ pub fn nearby(
 struct Search<'a> {
     parts: &'a [Deformable],
     margin: f64,
-    size: f64,
-}
-
-/// Elements that touch are in the same cell, or in cells beside each other.
-fn cell_size(parts: &[Deformable], margin: f64) -> f64 {
-    let of = |part: &Deformable| {
-        let edges = part
-            .surface
-            .iter()
-            .flat_map(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)]);
-        let lengths = edges.map(|(a, b)| (part.places[a] - part.places[b]).norm());
-        lengths.fold(0.0, f64::max) + 2.0 * part.material.radius
-    };
-    parts.iter().map(of).fold(0.0, f64::max) + margin
+    step: f64,
 }
 
 impl Search<'_> {
@@ -103,37 +88,59 @@ impl Search<'_> {
         self.parts[element.part].places[element.nodes[corner]]
     }
 
-    fn bounds(&self, element: Element) -> Bounds {
-        let [a, b, c] = [0, 1, 2].map(|corner| self.place(element, corner));
-        let reach = V3::repeat(self.parts[element.part].material.radius + 0.5 * self.margin);
-        Bounds {
-            low: a.inf(&b).inf(&c) - reach,
-            high: a.sup(&b).sup(&c) + reach,
-        }
+    fn velocity(&self, element: Element, weights: [f64; 3]) -> V3 {
+        let velocities = &self.parts[element.part].velocities;
+        let parts = element.nodes.iter().zip(weights);
+        parts.fold(V3::zeros(), |sum, (node, weight)| {
+            sum + velocities[*node] * weight
+        })
     }
 
-    fn cell(&self, place: &V3) -> [i64; 3] {
-        [place.x, place.y, place.z].map(|x| (x / self.size).floor() as i64)
+    /// Where an element is in the step.
+    fn bounds(&self, element: Element) -> Bounds {
+        let part = &self.parts[element.part];
+        let reach = V3::repeat(part.material.radius + 0.5 * self.margin);
+        let [mut low, mut high] = [self.place(element, 0); 2];
+        for node in element.nodes {
+            let start = part.places[node];
+            let end = start + part.velocities[node] * self.step;
+            (low, high) = (low.inf(&start).inf(&end), high.sup(&start).sup(&end));
+        }
+        Bounds {
+            low: low - reach,
+            high: high + reach,
+        }
     }
 
     /// Calls a function with all pairs of elements whose boxes overlap and that share no node.
     fn pairs(&self, first: &[Element], second: &[Element], add: &mut impl FnMut(Element, Element)) {
-        let mut cells: BTreeMap<[i64; 3], Vec<(usize, Bounds)>> = BTreeMap::new();
-        for (number, element) in second.iter().enumerate() {
-            let bounds = self.bounds(*element);
-            let middle = (bounds.low + bounds.high) * 0.5;
-            cells
-                .entry(self.cell(&middle))
-                .or_default()
-                .push((number, bounds));
+        let of = |elements: &[Element]| -> Vec<Bounds> {
+            elements
+                .iter()
+                .map(|element| self.bounds(*element))
+                .collect()
+        };
+        let (own, others) = (of(first), of(second));
+        // Boxes that overlap are in the same cell, or in cells beside each other.
+        let size = own
+            .iter()
+            .chain(&others)
+            .map(Bounds::size)
+            .fold(0.0, f64::max);
+        if size <= 0.0 || !size.is_finite() {
+            return;
         }
-        for element in first {
-            let bounds = self.bounds(*element);
-            let [x, y, z] = self.cell(&((bounds.low + bounds.high) * 0.5));
+        let mut cells: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
+        for (number, bounds) in others.iter().enumerate() {
+            cells.entry(bounds.cell(size)).or_default().push(number);
+        }
+        for (element, bounds) in first.iter().zip(&own) {
+            let [x, y, z] = bounds.cell(size);
             let around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
-            for (number, other) in around.filter_map(|cell| cells.get(&cell)).flatten() {
-                if bounds.overlaps(other) && !element.shares_node(&second[*number]) {
-                    add(*element, second[*number]);
+            for number in around.filter_map(|cell| cells.get(&cell)).flatten() {
+                let other = second[*number];
+                if bounds.overlaps(&others[*number]) && !element.shares_node(&other) {
+                    add(*element, other);
                 }
             }
         }
@@ -157,7 +164,9 @@ impl Search<'_> {
         let apart = at(first, on_first) - place;
         let distance = apart.norm();
         let [own, other] = [first, second].map(|e| self.parts[e.part].material.radius);
-        if distance > own + other + self.margin || distance < 1e-9 {
+        let moved = self.velocity(first, on_first) - self.velocity(second, on_second);
+        let reach = own + other + self.margin + moved.norm() * self.step;
+        if distance > reach || distance < 1e-9 {
             return None;
         }
         let normal = apart / distance;
@@ -194,6 +203,15 @@ impl Element {
 }
 
 impl Bounds {
+    fn size(&self) -> f64 {
+        (self.high - self.low).max()
+    }
+
+    fn cell(&self, size: f64) -> [i64; 3] {
+        let middle = (self.low + self.high) * (0.5 / size);
+        [middle.x, middle.y, middle.z].map(|x| x.floor() as i64)
+    }
+
     fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
     }

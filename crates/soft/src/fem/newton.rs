@@ -5,6 +5,7 @@ use nalgebra::Vector6;
 use super::Deformable;
 use super::contact::{Contact, Surface, Trial};
 use super::gas::{volume_gradient, volume_of};
+use super::islands::Island;
 use super::system::{Coupling, Held, Joined, System, Vector};
 use crate::assembly::lever_map;
 use crate::body::{Body, Unknown};
@@ -22,21 +23,15 @@ const ROUNDING: f64 = 1e-12;
 /// How often a change is halved that goes too far.
 const MAX_HALVINGS: usize = 12;
 
-/// Moves cloths and volumes, and finds the impulses on bodies and at contacts; false where there is no solution in finite numbers: then they stay where they are, at
-/// rest.
-pub fn solve(
-    parts: &mut [Deformable],
-    bodies: &mut [Body],
-    contacts: &mut [Contact],
-    step: Step,
-) -> bool {
-    for body in bodies.iter_mut() {
-        body.impulse = Vector6::zeros();
-    }
-    contacts
-        .iter_mut()
-        .for_each(|contact| contact.touch.impulse = V3::zeros());
-    parts.iter_mut().for_each(Deformable::begin_step);
+/// Moves cloths and volumes that have to do with each other; false where there is no solution in finite numbers: then they stay where they are, at rest.
+pub(super) fn solve_island(island: &mut Island, step: Step) -> bool {
+    let Island {
+        parts,
+        bodies,
+        contacts,
+        ..
+    } = island;
+    parts.iter_mut().for_each(|part| part.begin_step());
     let mut solver = Solver::new(parts, bodies, step);
     let is_found = solver.iterate(parts, bodies, contacts);
     if is_found {
@@ -68,7 +63,7 @@ struct Solver {
 }
 
 impl Solver {
-    fn new(parts: &[Deformable], bodies: &[Body], step: Step) -> Self {
+    fn new(parts: &[&mut Deformable], bodies: &[Body], step: Step) -> Self {
         let mut starts = Vec::new();
         let (mut masses, mut before, mut now) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
@@ -104,7 +99,7 @@ impl Solver {
     }
 
     /// Puts nodes where what holds them is.
-    fn place_held(&mut self, parts: &[Deformable], bodies: &[Body]) {
+    fn place_held(&mut self, parts: &[&mut Deformable], bodies: &[Body]) {
         for (start, part) in self.starts.iter().zip(parts) {
             for hold in &part.holds {
                 self.now[start + hold.node] = match hold.target {
@@ -117,7 +112,12 @@ impl Solver {
         }
     }
 
-    fn iterate(&mut self, parts: &mut [Deformable], bodies: &[Body], contacts: &[Contact]) -> bool {
+    fn iterate(
+        &mut self,
+        parts: &mut [&mut Deformable],
+        bodies: &[Body],
+        contacts: &[Contact],
+    ) -> bool {
         for iteration in 0..MAX_ITERATIONS {
             if iteration < FRICTION_ITERATIONS {
                 self.find_limits(contacts, bodies);
@@ -140,7 +140,7 @@ impl Solver {
 
     fn change(
         &self,
-        parts: &[Deformable],
+        parts: &[&mut Deformable],
         couplings: Vec<Coupling>,
         joined: Vec<Joined>,
     ) -> Option<Vector> {
@@ -163,7 +163,7 @@ impl Solver {
     fn advance(
         &mut self,
         change: &Vector,
-        parts: &[Deformable],
+        parts: &[&mut Deformable],
         bodies: &[Body],
         contacts: &[Contact],
     ) {
@@ -214,7 +214,7 @@ impl Solver {
     }
 
     /// What the step minimises.
-    fn potential(&self, parts: &[Deformable], bodies: &[Body], contacts: &[Contact]) -> f64 {
+    fn potential(&self, parts: &[&mut Deformable], bodies: &[Body], contacts: &[Contact]) -> f64 {
         let mut sum: f64 = self.unknowns.iter().map(Unknown::potential).sum();
         for (number, part) in parts.iter().enumerate() {
             let places = self.places(number, part);
@@ -248,7 +248,7 @@ impl Solver {
     /// Finds the gradient and the matrices.
     fn assemble(
         &mut self,
-        parts: &mut [Deformable],
+        parts: &mut [&mut Deformable],
         bodies: &[Body],
         contacts: &[Contact],
     ) -> (Vec<Coupling>, Vec<Joined>) {
@@ -277,7 +277,12 @@ impl Solver {
         (couplings, joined)
     }
 
-    fn finish(mut self, parts: &mut [Deformable], bodies: &mut [Body], contacts: &mut [Contact]) {
+    fn finish(
+        mut self,
+        parts: &mut [&mut Deformable],
+        bodies: &mut [Body],
+        contacts: &mut [Contact],
+    ) {
         self.assemble(parts, bodies, contacts);
         let trial = self.trial(bodies);
         let mut impulses = vec![Vector6::zeros(); bodies.len()];
@@ -334,7 +339,7 @@ impl Deformable {
 }
 
 /// The nodes that are held; a node that is held twice goes with the first holder.
-fn held(parts: &[Deformable], starts: &[usize]) -> Vec<Held> {
+fn held(parts: &[&mut Deformable], starts: &[usize]) -> Vec<Held> {
     let mut all: Vec<Held> = Vec::new();
     for (start, part) in starts.iter().zip(parts) {
         for hold in &part.holds {
@@ -350,8 +355,8 @@ fn held(parts: &[Deformable], starts: &[usize]) -> Vec<Held> {
 }
 
 /// Mass of all parts, and their moment of inertia about an end.
-fn scale(parts: &[Deformable]) -> [f64; 2] {
-    let of = |part: &Deformable| {
+fn scale(parts: &[&mut Deformable]) -> [f64; 2] {
+    let of = |part: &&mut Deformable| {
         let mass: f64 = part.masses.iter().sum();
         let from = part.places[0];
         let sizes = part

@@ -9,6 +9,8 @@ use super::blocks::Blocks;
 use super::material::Material;
 use crate::V3;
 
+/// Angle by which a rotation counts as found: energies are exact to its square.
+const ENOUGH: f64 = 1e-9;
 /// Most iterations for a rotation; most elements need two or three.
 const MAX_ITERATIONS: usize = 20;
 
@@ -154,7 +156,7 @@ fn rotation_of(deformation: &Matrix3<f64>, start: UnitQuaternion<f64>) -> UnitQu
         }
         let turn = axis / (f64::abs(size) + 1e-9);
         let angle = turn.norm();
-        if angle < 1e-12 {
+        if angle < ENOUGH {
             break;
         }
         rotation = UnitQuaternion::from_scaled_axis(turn) * rotation;

@@ -1,5 +1,7 @@
 //! Cloths and soft volumes: what they are.
 
+use nalgebra::Vector3;
+
 use super::text::{semicolon, tuples, words};
 
 /// Largest number of points of a cloth or volume.
@@ -87,8 +89,31 @@ impl Body {
         !self.tetrahedra.is_empty()
     }
 
-    /// Whether numbers are in the ranges that they can be computed with, and indices in range.
+    /// Whether the physics can compute with it: [`fault`](Self::fault) finds none.
     pub fn is_valid(&self) -> bool {
+        self.fault().is_none()
+    }
+
+    /// What is wrong with it, if something is.
+    pub fn fault(&self) -> Option<&'static str> {
+        let faults = [
+            (!self.has_valid_numbers(), "a number is out of range"),
+            (
+                !self.has_valid_counts(),
+                "there are too few or too many points or elements",
+            ),
+            (
+                !self.has_valid_indices(),
+                "a point is missing, or its place is no place",
+            ),
+        ];
+        let fault = faults.iter().find(|(is_so, _)| *is_so);
+        let fault = fault.map(|(_, text)| *text);
+        // Elements are measured only where all points are there.
+        fault.or_else(|| (!self.has_extent()).then_some("a triangle has no area, a tetrahedron no positive volume, or a point belongs to none"))
+    }
+
+    fn has_valid_numbers(&self) -> bool {
         let stiffness = if self.is_volume() {
             self.young
         } else {
@@ -107,24 +132,80 @@ impl Body {
             && self.poisson < 0.5
             && self.strength > 0.0
             && self.pressure.is_none_or(|x| x.is_finite() && x > -1e5)
-            && self.has_valid_mesh()
     }
 
-    fn has_valid_mesh(&self) -> bool {
-        let count = self.points.len();
+    fn has_valid_counts(&self) -> bool {
         let elements = self.triangles.len() + self.tetrahedra.len();
-        let indices = self.triangles.as_flattened().iter();
-        let mut indices = indices.chain(self.tetrahedra.as_flattened());
-        (3..=MAX_POINTS).contains(&count)
+        (3..=MAX_POINTS).contains(&self.points.len())
             && (1..=MAX_ELEMENTS).contains(&elements)
             && !self.triangles.is_empty()
-            && indices.all(|index| (*index as usize) < count)
-            && self
-                .points
-                .as_flattened()
-                .iter()
-                .all(|x| x.is_finite() && x.abs() < 1e4)
     }
+
+    fn has_valid_indices(&self) -> bool {
+        let indices = self.triangles.as_flattened().iter();
+        let mut indices = indices.chain(self.tetrahedra.as_flattened());
+        indices.all(|index| (*index as usize) < self.points.len()) && are_places(&self.points)
+    }
+
+    /// Whether all elements have an extent, and all points belong to one.
+    fn has_extent(&self) -> bool {
+        let mut used = vec![false; self.points.len()];
+        let mut take = |indices: &[u32]| {
+            for index in indices {
+                used[*index as usize] = true;
+            }
+        };
+        let have_extent = if self.is_volume() {
+            self.tetrahedra.iter().all(|element| {
+                take(element);
+                self.volume_of(element) > 0.0
+            })
+        } else {
+            self.triangles.iter().all(|triangle| {
+                take(triangle);
+                self.area_of(triangle) > 0.0
+            })
+        };
+        have_extent && used.iter().all(|is_used| *is_used)
+    }
+
+    fn corners<const N: usize>(&self, indices: &[u32; N]) -> [Vector3<f64>; N] {
+        indices.map(|index| Vector3::from(self.points[index as usize]))
+    }
+
+    fn area_of(&self, triangle: &[u32; 3]) -> f64 {
+        let [a, b, c] = self.corners(triangle);
+        0.5 * (b - a).cross(&(c - a)).norm()
+    }
+
+    fn volume_of(&self, element: &[u32; 4]) -> f64 {
+        let [a, b, c, d] = self.corners(element);
+        (b - a).dot(&(c - a).cross(&(d - a))) / 6.0
+    }
+
+    /// Its area, m2, or its volume, m3; 0 where an index is out of range.
+    pub fn extent(&self) -> f64 {
+        if !self.has_valid_indices() {
+            return 0.0;
+        }
+        if self.is_volume() {
+            self.tetrahedra
+                .iter()
+                .map(|element| self.volume_of(element))
+                .sum()
+        } else {
+            self.triangles
+                .iter()
+                .map(|triangle| self.area_of(triangle))
+                .sum()
+        }
+    }
+}
+
+/// Whether all are in the range of the physics.
+pub(super) fn are_places(points: &[[f64; 3]]) -> bool {
+    let numbers = points.as_flattened();
+    numbers.iter().all(|x| x.is_finite() && x.abs() < 1e4)
 }
 
 impl std::fmt::Display for Body {

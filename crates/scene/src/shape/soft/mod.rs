@@ -57,6 +57,8 @@ pub struct SoftForm {
     pub broken: Vec<bool>,
     /// By pin, in their order: the force on what is soft, N.
     pub pin_forces: Vec<[f64; 3]>,
+    /// Of the gas in a closed cloth, above that of the air outside, Pa.
+    pub pressure: f64,
 }
 
 impl Soft {
@@ -75,12 +77,29 @@ impl Soft {
         }
     }
 
+    /// The pressure that it begins with.
+    fn pressure(&self) -> f64 {
+        match self {
+            Self::Rope(_) => 0.0,
+            Self::Body(body) => body.pressure.unwrap_or(0.0),
+        }
+    }
+
     /// Whether it touches itself.
     pub fn touches_itself(&self) -> bool {
         match self {
             Self::Rope(rope) => rope.touches_itself,
             Self::Body(body) => body.touches_itself,
         }
+    }
+
+    /// Whether its points can be in these places.
+    pub fn can_be_at(&self, points: &[[f64; 3]]) -> bool {
+        points.len() == self.points().len()
+            && match self {
+                Self::Rope(_) => rope::is_line(points),
+                Self::Body(_) => body::are_places(points),
+            }
     }
 
     /// Number of edges or triangles that can break.
@@ -212,6 +231,7 @@ impl Scene {
             tensions: vec![0.0; soft.breakable()],
             broken: vec![false; soft.breakable()],
             pin_forces: Vec::new(),
+            pressure: soft.pressure(),
         })
     }
 

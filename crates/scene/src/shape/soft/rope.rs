@@ -3,6 +3,7 @@
 use geometry::Mesh;
 use nalgebra::Vector3;
 
+use super::body::are_places;
 use super::text::{semicolon, tuples, words};
 
 /// Largest number of points of a rope.
@@ -96,17 +97,11 @@ impl Rope {
             self.twist,
         ];
         let others = [self.damping, self.drag, self.length];
-        let apart = |pair: &[[f64; 3]]| Vector3::from(pair[0]) != Vector3::from(pair[1]);
         positive.iter().all(|x| x.is_finite() && *x > 0.0)
             && others.iter().all(|x| x.is_finite() && *x >= 0.0)
             && self.strength > 0.0
             && (2..=MAX_POINTS).contains(&self.points.len())
-            && self
-                .points
-                .iter()
-                .flatten()
-                .all(|x| x.is_finite() && x.abs() < 1e4)
-            && self.points.windows(2).all(apart)
+            && is_line(&self.points)
     }
 }
 
@@ -132,6 +127,12 @@ impl std::fmt::Display for Rope {
         )?;
         write!(f, "points={}", semicolon(&self.points))
     }
+}
+
+/// Whether points are in the range of the physics, and neighbours apart.
+pub(super) fn is_line(points: &[[f64; 3]]) -> bool {
+    let apart = |pair: &[[f64; 3]]| Vector3::from(pair[0]) != Vector3::from(pair[1]);
+    are_places(points) && points.windows(2).all(apart)
 }
 
 /// A tube around points, without the edges that are broken.
