@@ -68,6 +68,8 @@ use scene::joint::{Joint, JointMode};
 use scene::parameters::mujoco::Surrounding;
 use scene::{Field, Handle, Mark, Scene, Topics};
 
+/// How often soft bodies and the bodies that they push are solved in a sub-step, at most, until both agree.
+const MAX_ATTEMPTS: usize = 4;
 /// Changes that can alter bodies and constraints.
 const PLANNED: Topics = Topics::TREE.with_fields(&[
     Field::Layer,
@@ -451,17 +453,57 @@ impl Dynamics {
             step: call.step,
             fraction: f64::from(sub_step) / f64::from(call.sub_steps),
         };
-        let are_bodies_coupled = self.soft_bodies.look_around(&self.bodies, world, start);
-        let mut responses = Vec::new();
-        if are_bodies_coupled {
-            let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
-            self.mechanisms
-                .solve(links, bodies, world, gravity, call.step, verdicts, workers);
-            for shape in self.soft_bodies.coupled_shapes() {
-                responses.extend(self.response_of(shape, world, gravity, call.step));
-            }
+        if !self.soft_bodies.look_around(&self.bodies, world, start) {
+            self.soft_bodies.solve(Vec::new(), world, start);
+            return;
         }
-        self.soft_bodies.solve(responses, world, start);
+        for attempt in 1..=MAX_ATTEMPTS {
+            self.solve_coupled(world, gravity, call.step, verdicts);
+            let shapes = self.soft_bodies.coupled_shapes().into_iter();
+            let responses = shapes
+                .filter_map(|shape| self.response_of(shape, world, gravity, call.step))
+                .collect();
+            self.soft_bodies.solve(responses, world, start);
+            if attempt == MAX_ATTEMPTS || self.go_as_expected(world, gravity, call.step, verdicts) {
+                break;
+            }
+            self.soft_bodies.go_back();
+        }
+    }
+
+    /// Solves the mechanisms with the forces that bodies have.
+    fn solve_coupled(
+        &mut self,
+        world: &mut World,
+        gravity: [f64; 3],
+        step: f64,
+        verdicts: &Verdicts,
+    ) {
+        let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
+        self.mechanisms
+            .solve(links, bodies, world, gravity, step, verdicts, workers);
+    }
+
+    /// Whether bodies of mechanisms get the velocities with which the soft bodies were solved. They do not where a motor has come to its limit, or a contact opens.
+    fn go_as_expected(
+        &mut self,
+        world: &mut World,
+        gravity: [f64; 3],
+        step: f64,
+        verdicts: &Verdicts,
+    ) -> bool {
+        let shapes = self.soft_bodies.coupled_shapes();
+        if shapes
+            .iter()
+            .all(|shape| self.mechanisms.velocity(*shape).is_none())
+        {
+            return true;
+        }
+        self.solve_coupled(world, gravity, step, verdicts);
+        let velocities = shapes
+            .into_iter()
+            .map(|shape| self.mechanisms.velocity(shape));
+        self.soft_bodies.are_expected(velocities)
     }
 
     /// Where a body would go without soft bodies, and what an impulse changes.
@@ -486,15 +528,14 @@ impl Dynamics {
         step: f64,
         verdicts: &Verdicts,
     ) -> bool {
-        let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
-        self.mechanisms
-            .solve(links, bodies, world, gravity, step, verdicts, workers);
+        self.solve_coupled(world, gravity, step, verdicts);
         let is_usual = self.is_stepped
             && world.has_gravity(convert::to_vector(gravity))
             && !self.bodies.are_sweeping();
         let is_integrated = is_usual && self.mechanisms.can_integrate(world);
         if is_integrated {
-            self.mechanisms.integrate(links, world, workers);
+            self.mechanisms
+                .integrate(&mut self.links, world, &mut self.workers);
         } else {
             self.mechanisms.apply_forces(world);
         }

@@ -129,26 +129,26 @@ fn create_body(cx: &mut Cx, alias: &str, made: Described) -> Result<Handle> {
     Ok(handle)
 }
 
-/// Holds a point of a rope where it is on an object: it goes along with it, and pulls at it.
+/// Holds a point of a rope, cloth or volume where it is on an object: it goes along with it, and pulls at it.
 ///
-/// Options: `position` (world): the point is held there instead of where it is; `clamp` (false): the edge that begins at the point (at the last point: ends) keeps its
+/// Options: `position` (world): the point is held there instead of where it is; `clamp` (false; of ropes): the edge that begins at the point (at the last point: ends) keeps its
 /// direction in the object and does not turn about its axis.
 ///
-/// @param ropeHandle the rope
+/// @param handle the rope, cloth or volume
 /// @param point its index, from 0
 /// @param objectHandle what holds it; -1: the world
 /// @param options a table
 #[api("simSoft.pin")]
 fn pin(
     cx: &mut Cx,
-    rope_handle: Handle,
+    handle: Handle,
     point: i64,
     #[default(-1)] object_handle: i64,
     #[default(Table(Data::Nil))] options: Table,
 ) -> Result<()> {
     let options = options.0;
     options::check_names(&options, &["position", "clamp"])?;
-    let form = cx.scene().soft_form(rope_handle)?;
+    let form = cx.scene().soft_form(handle)?;
     let point = index(point, form.points.len())?;
     let here = form.points[point];
     let position = options::numbers::<3>(&options, "position")?.unwrap_or(here);
@@ -159,10 +159,16 @@ fn pin(
         place: (pose.inverse() * Point3::from(position)).into(),
         clamped: options::truth(&options, "clamp", false)?,
     };
-    let mut pins = cx.scene().object(rope_handle)?.pins();
+    if held.clamped && body(cx, handle).is_ok() {
+        return Err(ApiError::Other(
+            "only ropes and cables are clamped; a cloth or volume is pinned at several points."
+                .into(),
+        ));
+    }
+    let mut pins = cx.scene().object(handle)?.pins();
     pins.retain(|pin| pin.point != point);
     pins.push(held);
-    Ok(cx.scene_mut().set_pins(rope_handle, &pins)?)
+    Ok(cx.scene_mut().set_pins(handle, &pins)?)
 }
 
 fn holder(cx: &Cx, raw: i64) -> Result<(Option<Handle>, Pose)> {
@@ -173,25 +179,25 @@ fn holder(cx: &Cx, raw: i64) -> Result<(Option<Handle>, Pose)> {
     Ok((Some(handle), cx.scene().world_pose(handle)?))
 }
 
-/// Lets a point of a rope go.
+/// Lets a point of a rope, cloth or volume go.
 ///
-/// @param ropeHandle the rope
+/// @param handle the rope, cloth or volume
 /// @param point its index, from 0; -1: all that are held
 #[api("simSoft.unpin")]
-fn unpin(cx: &mut Cx, rope_handle: Handle, #[default(-1)] point: i64) -> Result<()> {
-    cx.scene().soft_form(rope_handle)?;
-    let mut pins = cx.scene().object(rope_handle)?.pins();
+fn unpin(cx: &mut Cx, handle: Handle, #[default(-1)] point: i64) -> Result<()> {
+    cx.scene().soft_form(handle)?;
+    let mut pins = cx.scene().object(handle)?.pins();
     pins.retain(|pin| point >= 0 && pin.point as i64 != point);
-    Ok(cx.scene_mut().set_pins(rope_handle, &pins)?)
+    Ok(cx.scene_mut().set_pins(handle, &pins)?)
 }
 
-/// Where the points of a rope are.
+/// Where the points of a rope, cloth or volume are.
 ///
-/// @param ropeHandle the rope
+/// @param handle the rope, cloth or volume
 /// @return points three coordinates each, world
 #[api("simSoft.getPoints")]
-fn get_points(cx: &Cx, rope_handle: Handle) -> Result<Vec<f64>> {
-    let form = cx.scene().soft_form(rope_handle)?;
+fn get_points(cx: &Cx, handle: Handle) -> Result<Vec<f64>> {
+    let form = cx.scene().soft_form(handle)?;
     Ok(form.points.into_flattened())
 }
 
@@ -240,23 +246,23 @@ fn body(cx: &Cx, handle: Handle) -> Result<Body> {
     }
 }
 
-/// Puts the points of a rope elsewhere, at rest. What was stretched by that is pulled together again.
+/// Puts the points of a rope, cloth or volume elsewhere, at rest. What was stretched by that is pulled together again.
 ///
-/// @param ropeHandle the rope
+/// @param handle the rope, cloth or volume
 /// @param points three coordinates each, world; as many as there are
 #[api("simSoft.setPoints")]
-fn set_points(cx: &mut Cx, rope_handle: Handle, points: Vec<f64>) -> Result<()> {
-    let mut form = cx.scene().soft_form(rope_handle)?;
+fn set_points(cx: &mut Cx, handle: Handle, points: Vec<f64>) -> Result<()> {
+    let mut form = cx.scene().soft_form(handle)?;
     let (points, rest) = points.as_chunks::<3>();
     if !rest.is_empty() || points.len() != form.points.len() {
         return Err(ApiError::TableSize);
     }
-    let known = cx.scene().object(rope_handle)?.soft();
+    let known = cx.scene().object(handle)?.soft();
     if !known.is_some_and(|soft| soft.can_be_at(points)) {
         return Err(SceneError::InvalidArgument.into());
     }
     form.points = points.to_vec();
-    put(cx, rope_handle, form)
+    put(cx, handle, form)
 }
 
 /// Lets the physics take over a form.
@@ -267,57 +273,62 @@ fn put(cx: &mut Cx, rope: Handle, form: SoftForm) -> Result<()> {
     Ok(scene.modify(rope, Field::Dynamics, |object| object.dynamics_reset = true)?)
 }
 
-/// Tensions of the edges between the points, in the last sub-step.
+/// Tensions of the edges between the points of a rope, or largest ones of the triangles of a cloth, in the last sub-step.
 ///
-/// @param ropeHandle the rope
-/// @return tensions newtons; negative where it is pressed
+/// @param handle the rope, cloth or volume
+/// @return tensions newtons, or newtons per metre; negative where it is pressed; none for a volume
 #[api("simSoft.getTensions")]
-fn get_tensions(cx: &Cx, rope_handle: Handle) -> Result<Vec<f64>> {
-    Ok(cx.scene().soft_form(rope_handle)?.tensions)
+fn get_tensions(cx: &Cx, handle: Handle) -> Result<Vec<f64>> {
+    Ok(cx.scene().soft_form(handle)?.tensions)
 }
 
-/// The force by which a rope is held at a point, in the last sub-step.
+/// The force by which a rope, cloth or volume is held at a point, in the last sub-step.
 ///
-/// @param ropeHandle the rope
+/// @param handle the rope, cloth or volume
 /// @param point its index, from 0
-/// @return force on the rope, newtons, world axes; 0 where nothing holds it
+/// @return force on it, newtons, world axes; 0 where nothing holds it
 #[api("simSoft.getPinForce")]
-fn get_pin_force(cx: &Cx, rope_handle: Handle, point: i64) -> Result<[f64; 3]> {
+fn get_pin_force(cx: &Cx, handle: Handle, point: i64) -> Result<[f64; 3]> {
     let SoftForm {
         points, pin_forces, ..
-    } = cx.scene().soft_form(rope_handle)?;
+    } = cx.scene().soft_form(handle)?;
     let point = index(point, points.len())?;
-    let pins = cx.scene().object(rope_handle)?.pins();
+    let pins = cx.scene().object(handle)?.pins();
     let place = pins.iter().position(|pin| pin.point == point);
     let force = place.and_then(|place| pin_forces.get(place).copied());
     Ok(force.unwrap_or_default())
 }
 
-/// Breaks a rope between two points.
+/// Breaks a rope between two points, or tears a triangle of a cloth.
 ///
-/// @param ropeHandle the rope
-/// @param edge index of the first of the two points, from 0
+/// @param handle the rope, cloth or volume
+/// @param edge index of the first of the two points, or of the triangle as it was made, from 0
 #[api("simSoft.breakEdge")]
-fn break_edge(cx: &mut Cx, rope_handle: Handle, edge: i64) -> Result<()> {
-    let mut form = cx.scene().soft_form(rope_handle)?;
-    let edge = index(edge, form.broken.len())?;
+fn break_edge(cx: &mut Cx, handle: Handle, edge: i64) -> Result<()> {
+    let mut form = cx.scene().soft_form(handle)?;
+    let edge = breakable(edge, form.broken.len())?;
     form.broken[edge] = true;
-    put(cx, rope_handle, form)
+    put(cx, handle, form)
 }
 
-/// Where a rope is broken.
+/// Where a rope is broken or a cloth torn.
 ///
-/// @param ropeHandle the rope
-/// @return edges index of the first of the two points, from 0, for each
+/// @param handle the rope, cloth or volume
+/// @return edges index of the first of the two points, or of the triangle, from 0, for each
 #[api("simSoft.getBrokenEdges")]
-fn get_broken_edges(cx: &Cx, rope_handle: Handle) -> Result<Vec<i64>> {
-    let broken = cx.scene().soft_form(rope_handle)?.broken;
+fn get_broken_edges(cx: &Cx, handle: Handle) -> Result<Vec<i64>> {
+    let broken = cx.scene().soft_form(handle)?.broken;
     let edges = (0..).zip(broken).filter(|(_, is_broken)| *is_broken);
     Ok(edges.map(|(edge, _)| edge).collect())
 }
 
-/// An index from 0 into so many.
+/// The index of a point, from 0.
 fn index(index: i64, count: usize) -> Result<usize> {
     let place = usize::try_from(index).ok().filter(|place| *place < count);
-    place.ok_or_else(|| ApiError::Other(format!("the rope has no point {index}.")))
+    place.ok_or_else(|| ApiError::Other(format!("the shape has no point {index}.")))
+}
+
+fn breakable(index: i64, count: usize) -> Result<usize> {
+    let place = usize::try_from(index).ok().filter(|place| *place < count);
+    place.ok_or_else(|| ApiError::Other(format!("the shape has no edge or triangle {index}.")))
 }

@@ -253,21 +253,24 @@ impl Linked {
     /// Of a body that was solved: the velocity that it gets, and what an impulse changes of that, by a small one in each direction. What was solved has to be
     /// solved again.
     pub(super) fn response(&mut self, body: usize) -> Option<(Vector6<f64>, Matrix6<f64>)> {
-        if !self.is_solved || self.shared {
-            return None;
-        }
-        let velocity_of = |linked: &Self| linked.mechanism.velocities().nth(body).copied();
-        let velocity = velocity_of(self)?;
+        let velocity = self.velocity(body)?;
         let shape = self.bodies.iter().chain(&self.guests).nth(body)?;
         let (mass, mut response) = (shape.mass(), Matrix6::zeros());
         for axis in 0..6 {
             let mut impulse = Vector6::zeros();
             impulse[axis] = mass[axis] * PROBED_SPEED;
             self.find_forces(Some((body, impulse)));
-            let changed = velocity_of(self).filter(|_| self.is_solved)? - velocity;
+            let changed = self.velocity(body)? - velocity;
             response.set_column(axis, &(changed / impulse[axis]));
         }
         Some((velocity, response))
+    }
+
+    /// The velocity that a body gets, of what was solved.
+    pub(super) fn velocity(&self, body: usize) -> Option<Vector6<f64>> {
+        let is_known = self.is_solved && !self.shared;
+        let velocity = self.mechanism.velocities().nth(body).copied();
+        velocity.filter(|_| is_known)
     }
 
     /// Finds the forces for what was read.

@@ -256,18 +256,28 @@ impl Mechanisms {
 
     /// Of a body that was solved just now: the velocity that it gets, and what an impulse changes of that. None for what the engine moves.
     pub(super) fn response(&mut self, shape: Handle) -> Option<(Vector6<f64>, Matrix6<f64>)> {
+        let (linked, body) = self.solver_of(shape)?;
+        linked.response(body)
+    }
+
+    /// Of a body that was solved just now: the velocity that it gets. None for what the engine moves.
+    pub(super) fn velocity(&mut self, shape: Handle) -> Option<Vector6<f64>> {
+        let (linked, body) = self.solver_of(shape)?;
+        linked.velocity(body)
+    }
+
+    /// What solves a body, and its number there.
+    fn solver_of(&mut self, shape: Handle) -> Option<(&mut Linked, usize)> {
         if let Some(&(number, body)) = self.places.get(&shape) {
-            return self.all[number].response(body);
+            return Some((&mut self.all[number], body));
         }
         let hosts = self.all.iter_mut().filter(|linked| !linked.shared);
-        for host in hosts.chain(self.loose.groups_mut()) {
-            let place = host.guests().position(|guest| guest == shape);
-            if let Some(guest) = place {
-                let body = host.bodies().len() + guest;
-                return host.response(body);
-            }
-        }
-        None
+        let mut hosts = hosts.chain(self.loose.groups_mut());
+        hosts.find_map(|host| {
+            let guest = host.guests().position(|guest| guest == shape)?;
+            let body = host.bodies().len() + guest;
+            Some((host, body))
+        })
     }
 
     /// Applies the forces to the bodies, which the engine then moves.

@@ -25,6 +25,8 @@ pub(super) struct Group<P: Part> {
     /// In the order of `all`, as the solver takes them.
     pub parts: Vec<P>,
     pub contacts: Vec<P::Contact>,
+    /// How the parts moved and what their contacts were before they were solved.
+    start: Option<(Vec<P::State>, Vec<P::Contact>)>,
 }
 
 impl<P: Part> Default for Group<P> {
@@ -33,6 +35,7 @@ impl<P: Part> Default for Group<P> {
             all: Vec::new(),
             parts: Vec::new(),
             contacts: Vec::new(),
+            start: None,
         }
     }
 }
@@ -165,6 +168,22 @@ impl<P: Part> Group<P> {
             let response = start.verdicts.response(a.tag(), b.tag());
             a.friction_in(response, b.plan.surface.friction)
         })
+    }
+
+    /// Remembers how the parts move, to go back there.
+    pub(super) fn remember(&mut self) {
+        let states = self.parts.iter().map(Part::state).collect();
+        self.start = Some((states, self.contacts.clone()));
+    }
+
+    /// The parts move as they were remembered.
+    pub(super) fn go_back(&mut self) {
+        if let Some((states, contacts)) = self.start.take() {
+            for (part, state) in self.parts.iter_mut().zip(states) {
+                part.set_state(state);
+            }
+            self.contacts = contacts;
+        }
     }
 
     pub(super) fn report(&self, scene: &mut Scene) {

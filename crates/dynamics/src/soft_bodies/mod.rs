@@ -31,12 +31,18 @@ use held::Held;
 
 pub(super) use coupling::Response;
 
+/// Velocity that a body may have beside the expected one, by 1 m/s more than that.
+const EXPECTED: f64 = 2e-3;
+
 /// What is soft in a scene.
 #[derive(Default)]
 pub(super) struct SoftBodies {
     ropes: Group<Rod>,
     bodies: Group<Deformable>,
     coupled: Coupled,
+    /// The impulses that coupled bodies have received in this sub-step, and the velocities that they get by them.
+    impulses: Vec<Vector6<f64>>,
+    expected: Vec<Vector6<f64>>,
     /// Whether rigid bodies have forces of soft ones.
     pub have_pushed: bool,
 }
@@ -101,6 +107,7 @@ impl SoftBodies {
     /// Finds what they touch and what holds them; whether rigid bodies take part.
     pub(super) fn look_around(&mut self, bodies: &Bodies, world: &World, start: Start<'_>) -> bool {
         self.coupled.clear();
+        self.impulses.clear();
         let coupled = &mut self.coupled;
         self.ropes.hold(bodies, world, start, coupled);
         self.bodies.hold(bodies, world, start, coupled);
@@ -120,36 +127,72 @@ impl SoftBodies {
         self.coupled.shapes().collect()
     }
 
-    /// Moves them, and applies to the rigid bodies what they do to them. `responses`: of these, in the order of [`coupled_shapes`](Self::coupled_shapes).
+    /// Moves them, and applies to the rigid bodies what they do to them. `responses`: of these, with what was applied in this sub-step before, in the order of
+    /// [`coupled_shapes`](Self::coupled_shapes).
     pub(super) fn solve(&mut self, responses: Vec<Response>, world: &mut World, start: Start<'_>) {
         let step = Step {
             gravity: V3::from(start.gravity),
             length: start.step,
         };
         let mut rigid: Vec<soft::Body> = responses.into_iter().map(Response::body).collect();
+        let applied = std::mem::take(&mut self.impulses);
+        for (body, applied) in rigid.iter_mut().zip(&applied) {
+            body.velocity -= body.response * applied;
+        }
+        if !rigid.is_empty() {
+            self.ropes.remember();
+            self.bodies.remember();
+        }
+        self.impulses = self.move_parts(&mut rigid, step);
+        self.have_pushed = !rigid.is_empty();
+        let applied = applied
+            .into_iter()
+            .chain(std::iter::repeat(Vector6::zeros()));
+        for ((handle, impulse), applied) in self.coupled.rigids().zip(&self.impulses).zip(applied) {
+            let rigid = world.bodies.get_mut(handle);
+            if let Some(rigid) = rigid.filter(|rigid| rigid.is_dynamic()) {
+                push(rigid, &(impulse - applied), start.step);
+            }
+        }
+        self.expected = rigid.into_iter().map(|body| body.velocity).collect();
+    }
+
+    /// The impulses on rigid bodies, which have their velocities after these.
+    fn move_parts(&mut self, rigid: &mut [soft::Body], step: Step) -> Vec<Vector6<f64>> {
         let mut impulses = vec![Vector6::zeros(); rigid.len()];
         let Group {
             parts, contacts, ..
         } = &mut self.ropes;
-        if !parts.is_empty() && soft::solve(parts, &mut rigid, contacts, step) {
-            take_impulses(&mut rigid, &mut impulses);
+        if !parts.is_empty() && soft::solve(parts, rigid, contacts, step) {
+            take_impulses(rigid, &mut impulses);
         }
         let Group {
             parts, contacts, ..
         } = &mut self.bodies;
-        if !parts.is_empty() && fem::solve(parts, &mut rigid, contacts, step) {
-            take_impulses(&mut rigid, &mut impulses);
+        if !parts.is_empty() && fem::solve(parts, rigid, contacts, step) {
+            take_impulses(rigid, &mut impulses);
         }
-        self.have_pushed = !impulses.is_empty();
-        for (handle, impulse) in self.coupled.rigids().zip(&impulses) {
-            if let Some(rigid) = world
-                .bodies
-                .get_mut(handle)
-                .filter(|rigid| rigid.is_dynamic())
-            {
-                push(rigid, impulse, start.step);
-            }
-        }
+        impulses
+    }
+
+    /// Whether coupled bodies get the velocities with which the soft ones were solved; None: what nothing but impulses changes.
+    pub(super) fn are_expected(
+        &self,
+        velocities: impl Iterator<Item = Option<Vector6<f64>>>,
+    ) -> bool {
+        let mut pairs = self.expected.iter().zip(velocities);
+        pairs.all(|(expected, velocity)| {
+            velocity.is_none_or(|velocity| {
+                let missing = (velocity - expected).fixed_rows::<3>(0).norm();
+                missing < EXPECTED * (1.0 + expected.fixed_rows::<3>(0).norm())
+            })
+        })
+    }
+
+    /// The soft bodies move as before they were solved; the rigid ones keep the forces, which the next solution replaces.
+    pub(super) fn go_back(&mut self) {
+        self.ropes.go_back();
+        self.bodies.go_back();
     }
 
     /// Tells the scene where they are.

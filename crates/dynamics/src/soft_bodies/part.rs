@@ -15,7 +15,9 @@ pub(super) type Friction<'a> = dyn Fn(usize, usize) -> Option<f64> + 'a;
 /// Something soft that the solver moves.
 pub(super) trait Part: Sized {
     /// A point at which it touches something.
-    type Contact;
+    type Contact: Clone;
+    /// How it moves.
+    type State;
     /// Through points of the world; None if it is something else.
     fn new(soft: &Soft, points: &[V3]) -> Option<Self>;
     fn len(&self) -> usize;
@@ -29,6 +31,8 @@ pub(super) trait Part: Sized {
     fn clamp(&self, node: usize) -> Option<(usize, usize, V3)>;
     fn holds(&mut self) -> &mut Vec<Hold>;
     fn held(&self) -> &[Hold];
+    fn state(&self) -> Self::State;
+    fn set_state(&mut self, state: Self::State);
     /// Puts the nodes elsewhere, at rest.
     fn set_places(&mut self, points: &[V3]);
     fn break_element(&mut self, element: usize);
@@ -69,6 +73,7 @@ pub(super) trait Part: Sized {
 
 impl Part for Rod {
     type Contact = Contact;
+    type State = Self;
 
     fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<Contact> {
         touches::of_rod(self, search, obstacle)
@@ -127,6 +132,14 @@ impl Part for Rod {
         &self.holds
     }
 
+    fn state(&self) -> Self {
+        self.clone()
+    }
+
+    fn set_state(&mut self, state: Self) {
+        *self = state;
+    }
+
     fn set_places(&mut self, points: &[V3]) {
         self.set_motion(points, &vec![V3::zeros(); points.len()]);
     }
@@ -167,6 +180,8 @@ fn material_of(rope: &Rope) -> Material {
 
 impl Part for Deformable {
     type Contact = fem::Contact;
+    /// Places and velocities. What was torn stays so.
+    type State = [Vec<V3>; 2];
 
     fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<fem::Contact> {
         touches::of_deformable(self, search, obstacle)
@@ -250,6 +265,14 @@ impl Part for Deformable {
 
     fn held(&self) -> &[Hold] {
         &self.holds
+    }
+
+    fn state(&self) -> [Vec<V3>; 2] {
+        [self.points(), self.velocities()].map(<[V3]>::to_vec)
+    }
+
+    fn set_state(&mut self, [places, velocities]: [Vec<V3>; 2]) {
+        self.set_motion(&places, &velocities);
     }
 
     fn set_places(&mut self, points: &[V3]) {

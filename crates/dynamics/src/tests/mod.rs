@@ -15,6 +15,7 @@ mod random_trees;
 mod roles;
 mod ropes;
 mod sleep;
+mod soft_bodies;
 mod surfaces;
 mod tumbling;
 

@@ -31,7 +31,7 @@ fn line(from: [f64; 3], to: [f64; 3], edges: usize) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn pin(point: usize, holder: Option<Handle>, place: [f64; 3]) -> Pin {
+pub(super) fn pin(point: usize, holder: Option<Handle>, place: [f64; 3]) -> Pin {
     Pin {
         point,
         holder,

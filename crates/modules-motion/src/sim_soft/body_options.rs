@@ -95,7 +95,7 @@ pub(super) fn cloth(cx: &Cx, options: &Data) -> Result<Described> {
     let stretch = positive(options, "stretchStiffness", plane)?;
     let body = Body {
         radius: 0.5 * thickness,
-        density: positive(options, "mass", of_area * area)? / area,
+        density: density(options, of_area, area)?,
         stretch,
         bend: number(
             options,
@@ -115,6 +115,14 @@ pub(super) fn cloth(cx: &Cx, options: &Data) -> Result<Described> {
     finished(options, body, mesh, mass)
 }
 
+/// Mass by extent: as given, or as the mass of all says.
+fn density(options: &Data, given_density: f64, extent: f64) -> Result<f64> {
+    match given(options, "mass") {
+        Some(_) => Ok(positive(options, "mass", 0.0)? / extent),
+        None => Ok(given_density),
+    }
+}
+
 fn pressure(options: &Data) -> Result<Option<f64>> {
     let Some(value) = given(options, "pressure") else {
         return Ok(None);
@@ -131,7 +139,7 @@ pub(super) fn volume(cx: &Cx, options: &Data) -> Result<Described> {
     let of_density = positive(options, "density", 1000.0)?;
     let body = Body {
         radius: 0.5 * number(options, "thickness", 2e-3)?,
-        density: positive(options, "mass", of_density * extent)? / extent,
+        density: density(options, of_density, extent)?,
         young: positive(options, "young", 1e5)?,
         poisson: number(options, "poisson", 0.4)?,
         damping: number(options, "damping", 5e-3)?,

@@ -130,6 +130,7 @@ impl Solver {
             if !way.is_finite() {
                 return false;
             }
+
             self.advance(&change, parts, bodies, contacts);
             if way < self.enough {
                 break;

@@ -22,7 +22,7 @@ pub(crate) struct Tetrahedron {
     pub volume: f64,
     /// Of the shape functions of the nodes, 1/m.
     gradients: [V3; 4],
-    /// The rotation and the stretch at the beginning of the step.
+    /// The rotation and the deformation at the beginning of the step.
     rotation: UnitQuaternion<f64>,
     before: Matrix3<f64>,
     slots: [[usize; 4]; 4],
@@ -52,7 +52,7 @@ impl Tetrahedron {
             volume,
             gradients: [-a - b - c, a, b, c],
             rotation: UnitQuaternion::identity(),
-            before: Matrix3::zeros(),
+            before: Matrix3::identity(),
             slots: [[0; 4]; 4],
         })
     }
@@ -61,12 +61,15 @@ impl Tetrahedron {
         self.slots = blocks.slots(&self.nodes);
     }
 
-    fn polar(&self, places: &[V3]) -> Polar {
+    fn deformation(&self, places: &[V3]) -> Matrix3<f64> {
         let parts = self.nodes.iter().zip(&self.gradients);
-        let deformation = parts.fold(Matrix3::zeros(), |sum, (node, gradient)| {
+        parts.fold(Matrix3::zeros(), |sum, (node, gradient)| {
             sum + places[*node] * gradient.transpose()
-        });
-        let rotation = rotation_of(&deformation, self.rotation);
+        })
+    }
+
+    fn polar(&self, deformation: &Matrix3<f64>) -> Polar {
+        let rotation = rotation_of(deformation, self.rotation);
         let stretch = rotation.to_rotation_matrix().transpose() * deformation;
         Polar {
             rotation,
@@ -76,15 +79,23 @@ impl Tetrahedron {
 
     /// Begins a step at these places.
     pub(crate) fn begin(&mut self, places: &[V3]) {
-        let polar = self.polar(places);
-        (self.rotation, self.before) = (polar.rotation, polar.strain);
+        self.before = self.deformation(places);
+        self.rotation = self.polar(&self.before).rotation;
+    }
+
+    /// Strain since the beginning of the step, seen from the rotation then.
+    fn change(&self, deformation: &Matrix3<f64>) -> Matrix3<f64> {
+        let start = self.rotation.to_rotation_matrix();
+        let change = start.transpose() * (deformation - self.before);
+        (change + change.transpose()) * 0.5
     }
 
     /// Elastic energy, with the share of damping of a step; `viscous`: ratio of viscous to elastic stiffness by the step.
     pub(crate) fn potential(&self, places: &[V3], material: &Material, viscous: f64) -> f64 {
-        let strain = self.polar(places).strain;
+        let deformation = self.deformation(places);
         let energy = |strain: Matrix3<f64>| 0.5 * stress(&strain, material).dot(&strain);
-        self.volume * (energy(strain) + viscous * energy(strain - self.before))
+        let elastic = energy(self.polar(&deformation).strain);
+        self.volume * (elastic + viscous * energy(self.change(&deformation)))
     }
 
     /// Adds the gradient of the potential, and its stiffness without what would make it negative.
@@ -96,10 +107,12 @@ impl Tetrahedron {
         gradient: &mut [V3],
         blocks: &mut Blocks,
     ) {
-        let Polar { rotation, strain } = self.polar(places);
+        let deformation = self.deformation(places);
+        let Polar { rotation, strain } = self.polar(&deformation);
         let rotation = rotation.to_rotation_matrix().into_inner();
-        let damped = strain + (strain - self.before) * viscous;
-        let force = rotation * stress(&damped, material) * self.volume;
+        let damping = stress(&self.change(&deformation), material) * viscous;
+        let start = self.rotation.to_rotation_matrix().into_inner();
+        let force = (rotation * stress(&strain, material) + start * damping) * self.volume;
         let turning = turning_stiffness(&strain, material) * self.volume;
         let strained = self.volume * (1.0 + viscous);
         let (lambda, shear) = (material.lambda * strained, material.shear * strained);
@@ -186,6 +199,32 @@ mod tests {
             .map(|corner| corner + turn * V3::x() * 0.01 * (turn.inverse() * (corner - V3::x())).x);
         let energy = 0.5 * (material.lambda + 2.0 * material.shear) * 1e-4 / 6.0;
         assert!((element.potential(&stretched, &material, 0.0) / energy - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn damping_has_the_gradient_of_its_potential() {
+        let mut element = Tetrahedron::new([0, 1, 2, 3], corners()).unwrap();
+        let material = Material::solid(1e5, 0.3);
+        let start = [0.0, 1.1, 0.2, 0.3].map(|x| V3::new(x, 0.3 * x * x, 0.1));
+        element.begin(&[0, 1, 2, 3].map(|i| corners()[i] + start[i] * 0.3));
+        let places = [0, 1, 2, 3].map(|i| corners()[i] * 1.1 + start[3 - i] * 0.4);
+        let mut blocks = Blocks::new(4, std::iter::once(&element.nodes[..]));
+        element.find_slots(&blocks);
+        let mut gradient = vec![V3::zeros(); 4];
+        element.add(&places, &material, 2.0, &mut gradient, &mut blocks);
+        for (node, axis) in (0..12).map(|i| (i / 3, i % 3)) {
+            let at = |change: f64| {
+                let mut places = places;
+                places[node][axis] += change;
+                element.potential(&places, &material, 2.0)
+            };
+            let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
+            let size = gradient[node].norm();
+            assert!(
+                (slope - gradient[node][axis]).abs() < 1e-5 * size,
+                "{slope}"
+            );
+        }
     }
 
     #[test]

@@ -96,21 +96,19 @@ impl Body {
 
     /// What is wrong with it, if something is.
     pub fn fault(&self) -> Option<&'static str> {
-        let faults = [
-            (!self.has_valid_numbers(), "a number is out of range"),
-            (
-                !self.has_valid_counts(),
-                "there are too few or too many points or elements",
-            ),
-            (
-                !self.has_valid_indices(),
-                "a point is missing, or its place is no place",
-            ),
-        ];
-        let fault = faults.iter().find(|(is_so, _)| *is_so);
-        let fault = fault.map(|(_, text)| *text);
-        // Elements are measured only where all points are there.
-        fault.or_else(|| (!self.has_extent()).then_some("a triangle has no area, a tetrahedron no positive volume, or a point belongs to none"))
+        if !self.has_valid_counts() {
+            Some("there are too few or too many points or elements")
+        } else if !self.has_valid_indices() {
+            Some("a point is missing, or its place is no place")
+        } else if !self.has_extent() {
+            Some(
+                "a triangle has no area, a tetrahedron no positive volume, or a point belongs to none",
+            )
+        } else if !self.has_valid_numbers() {
+            Some("a number is out of range")
+        } else {
+            None
+        }
     }
 
     fn has_valid_numbers(&self) -> bool {
