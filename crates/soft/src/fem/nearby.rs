@@ -36,18 +36,15 @@ pub fn nearby(
         step,
     };
     let mut contacts = Vec::new();
-    let mut add = |first: Element, second: Element| {
-        if let Some(friction) = friction(first.part, second.part) {
-            contacts.extend(search.touch(first, second, friction));
+    let whole: Vec<Bounds> = (0..parts.len()).map(|part| search.whole(part)).collect();
+    for first in 0..parts.len() {
+        for second in first..parts.len() {
+            let is_near = whole[first].overlaps(&whole[second]);
+            if let Some(friction) = friction(first, second).filter(|_| is_near) {
+                search.between(first, second, friction, &mut contacts);
+            }
         }
-    };
-    let (edges, triangles) = (search.edges(), search.triangles());
-    search.pairs(&search.nodes(), &triangles, &mut add);
-    search.pairs(&edges, &edges, &mut |first, second| {
-        if first < second {
-            add(first, second);
-        }
-    });
+    }
     contacts
 }
 
@@ -58,30 +55,65 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn nodes(&self) -> Vec<Element> {
-        self.elements(|[a, b, c]| [[a, a, a], [b, b, b], [c, c, c]])
-    }
-
-    fn edges(&self) -> Vec<Element> {
-        let edge = |a: usize, b: usize| [a.min(b), a.max(b), a.max(b)];
-        self.elements(|[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)])
-    }
-
-    fn triangles(&self) -> Vec<Element> {
-        self.elements(|triangle| [triangle])
-    }
-
-    fn elements<const N: usize>(&self, of: impl Fn([usize; 3]) -> [[usize; 3]; N]) -> Vec<Element> {
-        let mut all = Vec::new();
-        for (part, deformable) in self.parts.iter().enumerate() {
-            let whole = deformable.surface.iter().enumerate();
-            let whole = whole.filter(|(number, _)| !deformable.is_torn(*number));
-            let nodes = whole.flat_map(|(_, triangle)| of(*triangle));
-            all.extend(nodes.map(|nodes| Element { part, nodes }));
+    /// Nodes of each against triangles of the other, and edges against edges.
+    fn between(&self, first: usize, second: usize, friction: f64, contacts: &mut Vec<Contact>) {
+        let mut add = |a: Element, b: Element| contacts.extend(self.touch(a, b, friction));
+        self.pairs(&self.nodes(first), &self.triangles(second), &mut add);
+        if first != second {
+            self.pairs(&self.nodes(second), &self.triangles(first), &mut add);
         }
+        self.pairs(&self.edges(first), &self.edges(second), &mut |a, b| {
+            if a < b {
+                add(a, b);
+            }
+        });
+    }
+
+    fn nodes(&self, part: usize) -> Vec<Element> {
+        self.elements(part, |[a, b, c]| [[a, a, a], [b, b, b], [c, c, c]])
+    }
+
+    fn edges(&self, part: usize) -> Vec<Element> {
+        let edge = |a: usize, b: usize| [a.min(b), a.max(b), a.max(b)];
+        self.elements(part, |[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)])
+    }
+
+    fn triangles(&self, part: usize) -> Vec<Element> {
+        self.elements(part, |triangle| [triangle])
+    }
+
+    fn elements<const N: usize>(
+        &self,
+        part: usize,
+        of: impl Fn([usize; 3]) -> [[usize; 3]; N],
+    ) -> Vec<Element> {
+        let deformable = &self.parts[part];
+        let whole = deformable.surface.iter().enumerate();
+        let whole = whole.filter(|(number, _)| !deformable.is_torn(*number));
+        let nodes = whole.flat_map(|(_, triangle)| of(*triangle));
+        let mut all: Vec<Element> = nodes.map(|nodes| Element { part, nodes }).collect();
         all.sort_unstable();
         all.dedup();
         all
+    }
+
+    /// Where a part is in the step.
+    fn whole(&self, part: usize) -> Bounds {
+        let nodes = (0..self.parts[part].len()).map(|node| {
+            self.bounds(Element {
+                part,
+                nodes: [node; 3],
+            })
+        });
+        let joined = |a: Bounds, b: Bounds| Bounds {
+            low: a.low.inf(&b.low),
+            high: a.high.sup(&b.high),
+        };
+        // A part has nodes.
+        nodes.reduce(joined).unwrap_or(Bounds {
+            low: V3::zeros(),
+            high: V3::zeros(),
+        })
     }
 
     fn place(&self, element: Element, corner: usize) -> V3 {

@@ -130,7 +130,6 @@ impl Solver {
             if !way.is_finite() {
                 return false;
             }
-
             self.advance(&change, parts, bodies, contacts);
             if way < self.enough {
                 break;

@@ -3,7 +3,7 @@
 //! Constant strain, co-rotational: the stress is linear in the stretch that is left when the rotation is taken out of the deformation. The energy is that of
 //! Hooke's law for small strains and any rotation, finite where an element is pressed flat or turned inside out, so that it comes back from there.
 
-use nalgebra::{Matrix3, UnitQuaternion};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 
 use super::blocks::Blocks;
 use super::material::Material;
@@ -13,6 +13,8 @@ use crate::V3;
 const ENOUGH: f64 = 1e-9;
 /// Most iterations for a rotation; most elements need two or three.
 const MAX_ITERATIONS: usize = 20;
+/// Largest step of Newton's method for it, radians.
+const LONGEST_TURN: f64 = 1.0;
 
 /// An element of a volume.
 #[derive(Debug, Clone)]
@@ -156,24 +158,28 @@ fn turning_stiffness(strain: &Matrix3<f64>, material: &Material) -> Matrix3<f64>
     parts.eigenvectors * Matrix3::from_diagonal(&left) * parts.eigenvectors.transpose()
 }
 
-/// The rotation nearest to a deformation, from one near it: M. Mueller, J. Bender, N. Chentanez and M. Macklin, *A robust method to extract the rotational part of
+/// The rotation nearest to a deformation, from one near it: Newton's method for the rotation that makes the rest symmetric, where that rest is far from flat; else
+/// steps that are shorter and always go there, of M. Mueller, J. Bender, N. Chentanez and M. Macklin, *A robust method to extract the rotational part of
 /// deformations* (2016).
 fn rotation_of(deformation: &Matrix3<f64>, start: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     let mut rotation = start;
     for _ in 0..MAX_ITERATIONS {
-        let matrix = rotation.to_rotation_matrix().into_inner();
-        let (mut axis, mut size) = (V3::zeros(), 0.0);
-        for column in 0..3 {
-            axis += matrix.column(column).cross(&deformation.column(column));
-            size += matrix.column(column).dot(&deformation.column(column));
-        }
-        let turn = axis / (f64::abs(size) + 1e-9);
-        let angle = turn.norm();
-        if angle < ENOUGH {
+        let turned = rotation.to_rotation_matrix().transpose() * deformation;
+        let skew = V3::new(
+            turned[(2, 1)] - turned[(1, 2)],
+            turned[(0, 2)] - turned[(2, 0)],
+            turned[(1, 0)] - turned[(0, 1)],
+        );
+        let symmetric = (turned + turned.transpose()) * 0.5;
+        let resistance = Matrix3::from_diagonal_element(symmetric.trace()) - symmetric;
+        let newton = resistance.cholesky().map(|factors| factors.solve(&skew));
+        let newton = newton.filter(|turn| turn.norm() < LONGEST_TURN);
+        let turn = newton.unwrap_or_else(|| skew / (f64::abs(symmetric.trace()) + 1e-9));
+        let half = Quaternion::from_parts(1.0, turn * 0.5);
+        rotation *= UnitQuaternion::new_normalize(half);
+        if turn.norm() < ENOUGH {
             break;
         }
-        rotation = UnitQuaternion::from_scaled_axis(turn) * rotation;
-        rotation.renormalize();
     }
     rotation
 }
