@@ -2,17 +2,17 @@
 
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
 use soft::fem::{self, Deformable, Spot};
-use soft::{Contact, Rod, Surface, Touch};
+use soft::{Contact, Rod, Surface, Touch, V3};
 
 use super::obstacle::{Near, Obstacle, Search, place};
 
-/// An edge or triangle is nearer than its corners where it is so by this part of the radius.
+/// An edge or triangle is nearer than its corners where it is so by this part of the radius: less would come and go as what lies there gives way.
 const NEARER: f64 = 1e-3;
 
 /// The points of a rope: nodes, and edges where they are nearer than their ends.
 pub(super) fn of_rod(rod: &Rod, search: &Search, obstacle: &Obstacle) -> Vec<Contact> {
-    let nodes = search.near_nodes(rod, obstacle);
-    let mut contacts = Vec::new();
+    let mut nodes = search.near_nodes(rod, obstacle);
+    let (mut contacts, mut taken) = (Vec::new(), Vec::new());
     for edge in 0..rod.len() - 1 {
         let ends = [edge, edge + 1];
         let places = ends.map(|node| rod.point(node));
@@ -24,8 +24,12 @@ pub(super) fn of_rod(rod: &Rod, search: &Search, obstacle: &Obstacle) -> Vec<Con
         let reach = nearer(&nodes, &ends, obstacle.reach, rod.material.radius);
         if let Some((weight, near)) = obstacle.nearest_on_edge(places, reach) {
             contacts.push(on_rod(search, obstacle, (edge, weight), &near, true));
+            let length = (places[1] - places[0]).norm();
+            let ways = [weight, 1.0 - weight].map(|part| part * length);
+            taken.extend(beside(&ends, &ways, rod.material.radius));
         }
     }
+    taken.into_iter().for_each(|node| nodes[node] = None);
     for (node, near) in touching(&nodes, obstacle) {
         let edge = node.min(rod.len() - 2);
         let weight = (node - edge) as f64;
@@ -38,6 +42,17 @@ pub(super) fn of_rod(rod: &Rod, search: &Search, obstacle: &Obstacle) -> Vec<Con
 fn nearer(nodes: &[Option<Near>], corners: &[usize], reach: f64, radius: f64) -> f64 {
     let known = corners.iter().filter_map(|corner| nodes[*corner].as_ref());
     known.map(|near| near.distance).fold(reach, f64::min) - NEARER * radius
+}
+
+/// The corners that a contact on their edge or triangle stands for, by their distances from it: two for the same place would take turns.
+fn beside<'a>(
+    corners: &'a [usize],
+    ways: &'a [f64],
+    radius: f64,
+) -> impl Iterator<Item = usize> + 'a {
+    let known = corners.iter().zip(ways);
+    let near = known.filter(move |(_, way)| **way < radius);
+    near.map(|(corner, _)| *corner)
 }
 
 fn touching<'a>(
@@ -79,8 +94,8 @@ pub(super) fn of_deformable(
     search: &Search,
     obstacle: &Obstacle,
 ) -> Vec<fem::Contact> {
-    let nodes = search.near_nodes(part, obstacle);
-    let mut contacts = Vec::new();
+    let mut nodes = search.near_nodes(part, obstacle);
+    let (mut contacts, mut taken) = (Vec::new(), Vec::new());
     for (number, corners) in part.surface().iter().enumerate() {
         let places = corners.map(|node| part.points()[node]);
         let is_exempt = corners.iter().any(|node| search.is_exempt(*node, obstacle));
@@ -92,8 +107,12 @@ pub(super) fn of_deformable(
         if let Some((weights, near)) = obstacle.nearest_on_triangle(places, reach) {
             let spot = [0, 1, 2].map(|corner| (corners[corner], weights[corner]));
             contacts.push(on_part(search, obstacle, spot, &near, number << 1 | 1));
+            let at = (0..3).fold(V3::zeros(), |sum, i| sum + places[i] * weights[i]);
+            let ways = places.map(|place| (place - at).norm());
+            taken.extend(beside(corners, &ways, part.material().radius));
         }
     }
+    taken.into_iter().for_each(|node| nodes[node] = None);
     for (node, near) in touching(&nodes, obstacle).filter(|(node, _)| part.is_on_surface(*node)) {
         let spot = [(node, 1.0), (node, 0.0), (node, 0.0)];
         contacts.push(on_part(search, obstacle, spot, near, node << 1));

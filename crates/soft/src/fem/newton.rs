@@ -17,7 +17,7 @@ const MAX_ITERATIONS: usize = 20;
 /// Iterations after which the largest friction forces stay as they are.
 const FRICTION_ITERATIONS: usize = 3;
 /// Change of places by which the solution counts as found, in lengths of the shortest edge.
-const TOLERANCE: f64 = 1e-4;
+const TOLERANCE: f64 = 3e-5;
 /// Part of the potential that counts as nothing.
 const ROUNDING: f64 = 1e-12;
 /// How often a change is halved that goes too far.
