@@ -26,8 +26,11 @@ pub(super) struct Group<P: Part> {
     pub parts: Vec<P>,
     pub contacts: Vec<P::Contact>,
     /// How the parts moved and what their contacts were before they were solved.
-    start: Option<(Vec<P::State>, Vec<P::Contact>)>,
+    start: Option<Beginning<P>>,
 }
+
+/// How parts move, and their contacts.
+type Beginning<P> = (Vec<<P as Part>::State>, Vec<<P as Part>::Contact>);
 
 impl<P: Part> Default for Group<P> {
     fn default() -> Self {
