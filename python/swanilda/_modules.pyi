@@ -8591,14 +8591,24 @@ class _simSDF:
         """
 
 class _simSoft:
-    def breakEdge(self, ropeHandle: int, edge: int, /) -> None:
-        """Breaks a rope between two points.
-        ropeHandle: the rope
-        edge: index of the first of the two points, from 0
+    def breakEdge(self, handle: int, edge: int, /) -> None:
+        """Breaks a rope between two points, or tears a triangle of a cloth.
+        handle: the rope, cloth or volume
+        edge: index of the first of the two points, or of the triangle as it was made, from 0
         """
     def createCable(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
         """A cable or hose: as createRope, but it resists bending as a solid rod does, with a `young` of 2e7 Pa.
         options: a table, see createRope
+        """
+    def createCloth(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
+        """A cloth or membrane: a shape that the physics stretches, shears and bends; closed ones may hold gas.
+
+        Options: `size` (x, y, metres) and `count` (cells along both, {10, 10}): a flat rectangle; or `vertices` (three coordinates each) and `triangles` (three indices
+        each, from 0); or `shape`: the mesh of that shape, where it is. `pose` (7 numbers, world) of the frame of `size` or `vertices`; `thickness` (0.001 m); `density` (300 kg/m3),
+        `areaDensity` (kg/m2) or `mass` (kg, of all); `young` (1e6 Pa), `poisson` (0.3), or `stretchStiffness` (N/m) and `bendStiffness` (N m); `damping` (0.01 s), `drag` (0.3 per second), `friction`
+        (0.7), `strength` (N/m at which a triangle tears; it does not), `flat` (at rest; true for `size`, else as the vertices say), `pressure` (Pa above the air outside, in the volume that it begins with: a closed cloth holds
+        gas), `selfContact` (false), `color` (red, green, blue).
+        options: a table
         """
     def createRope(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
         """A rope: a shape that the physics bends. It resists bending a thousand times less than a solid rod.
@@ -8609,41 +8619,61 @@ class _simSoft:
         the points say), `selfContact` (false), `color` (red, green, blue).
         options: a table
         """
-    def getBrokenEdges(self, ropeHandle: int, /) -> list[int]:
-        """Where a rope is broken.
-        ropeHandle: the rope
+    def createVolume(self, options: Sequence[Any] | Mapping[Any, Any], /) -> int:
+        """A soft volume of tetrahedra, such as rubber, foam or fruit.
+
+        Options: `size` (x, y, z, metres) and `count` (cells along each, {4, 4, 4}): a box; or `shape`: the closed mesh of that shape is filled with cells of at most `cell` metres (an eighth of
+        its longest side); or `vertices` (three coordinates each) and `tetrahedra` (four indices each, from 0, in positive order). `pose` as in createCloth; `density` (1000 kg/m3) or `mass` (kg, of all); `young` (1e5
+        Pa), `poisson` (0.4); `thickness` (0.002 m: it touches things at half of that); `damping` (0.005 s), `drag` (0.1 per second), `friction` (0.7), `selfContact` (false), `color`.
+        options: a table
         """
-    def getPinForce(self, ropeHandle: int, point: int, /) -> list[float]:
-        """The force by which a rope is held at a point, in the last sub-step.
-        ropeHandle: the rope
+    def getBrokenEdges(self, handle: int, /) -> list[int]:
+        """Where a rope is broken or a cloth torn.
+        handle: the rope, cloth or volume
+        """
+    def getPinForce(self, handle: int, point: int, /) -> list[float]:
+        """The force by which a rope, cloth or volume is held at a point, in the last sub-step.
+        handle: the rope, cloth or volume
         point: its index, from 0
         """
-    def getPoints(self, ropeHandle: int, /) -> list[float]:
-        """Where the points of a rope are.
-        ropeHandle: the rope
+    def getPoints(self, handle: int, /) -> list[float]:
+        """Where the points of a rope, cloth or volume are.
+        handle: the rope, cloth or volume
         """
-    def getTensions(self, ropeHandle: int, /) -> list[float]:
-        """Tensions of the edges between the points, in the last sub-step.
-        ropeHandle: the rope
+    def getPressure(self, handle: int, /) -> float:
+        """The pressure of the gas in a closed cloth.
+        handle: the cloth
         """
-    def pin(self, ropeHandle: int, point: int, objectHandle: int | None = ..., options: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> None:
-        """Holds a point of a rope where it is on an object: it goes along with it, and pulls at it.
+    def getTensions(self, handle: int, /) -> list[float]:
+        """Tensions of the edges between the points of a rope, or largest ones of the triangles of a cloth, in the last sub-step.
+        handle: the rope, cloth or volume
+        """
+    def getTriangles(self, handle: int, /) -> list[int]:
+        """The triangles of a cloth, or of the surface of a volume, without those that are torn.
+        handle: the cloth or volume
+        """
+    def getVolume(self, handle: int, /) -> float:
+        """The volume within a closed cloth, or of a soft volume.
+        handle: the cloth or volume
+        """
+    def pin(self, handle: int, point: int, objectHandle: int | None = ..., options: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> None:
+        """Holds a point of a rope, cloth or volume where it is on an object: it goes along with it, and pulls at it.
 
-        Options: `position` (world): the point is held there instead of where it is; `clamp` (false): the edge that begins at the point (at the last point: ends) keeps its
+        Options: `position` (world): the point is held there instead of where it is; `clamp` (false; of ropes): the edge that begins at the point (at the last point: ends) keeps its
         direction in the object and does not turn about its axis.
-        ropeHandle: the rope
+        handle: the rope, cloth or volume
         point: its index, from 0
         objectHandle: what holds it; -1: the world
         options: a table
         """
-    def setPoints(self, ropeHandle: int, points: Sequence[float] | _Array, /) -> None:
-        """Puts the points of a rope elsewhere, at rest. What was stretched by that is pulled together again.
-        ropeHandle: the rope
+    def setPoints(self, handle: int, points: Sequence[float] | _Array, /) -> None:
+        """Puts the points of a rope, cloth or volume elsewhere, at rest. What was stretched by that is pulled together again.
+        handle: the rope, cloth or volume
         points: three coordinates each, world; as many as there are
         """
-    def unpin(self, ropeHandle: int, point: int | None = ..., /) -> None:
-        """Lets a point of a rope go.
-        ropeHandle: the rope
+    def unpin(self, handle: int, point: int | None = ..., /) -> None:
+        """Lets a point of a rope, cloth or volume go.
+        handle: the rope, cloth or volume
         point: its index, from 0; -1: all that are held
         """
 

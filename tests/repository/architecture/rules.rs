@@ -119,7 +119,7 @@ const DYNAMICS: Rooms = &[
     ),
     ("contact_log", &["bodies", "convert", "mechanisms", "world"]),
     (
-        "ropes",
+        "soft_bodies",
         &["bodies", "contacts", "convert", "near", "plan", "world"],
     ),
     ("particles", &["bodies", "convert", "world"]),
