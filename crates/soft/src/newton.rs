@@ -21,7 +21,7 @@ const MAX_ITERATIONS: usize = 20;
 /// Iterations after which the largest friction forces stay as they are, so that the rest of the step has a potential.
 const FRICTION_ITERATIONS: usize = 3;
 /// Change of places by which the solution counts as found, metres.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-7;
 /// Farthest that a node goes in an iteration, in lengths of the shortest edge.
 const LONGEST_WAY: f64 = 1.0;
 /// The part of that up to which a change need not be looked at: there the equations are as good as linear.

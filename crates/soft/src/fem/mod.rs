@@ -9,7 +9,7 @@
 //! - The places at the end of a step are those of the least potential: of inertia, elasticity, contacts and gravity. Newton's method finds them, with a line search.
 //!   What of the stiffness would be negative is left out, so that each step goes down.
 //! - The linear equations are solved by conjugate gradients, with the inverses of the blocks of nodes and bodies as preconditioner. How many iterations that takes
-//!   depends on how far a wave of stress runs in a step, in elements, and not on the size of the mesh: the cost grows linearly with the number of elements.
+//!   depends on how far a wave of stress runs in a step, in elements: the cost grows linearly with a mesh that gets larger, and faster with one that gets finer.
 //! - Rigid bodies are unknowns as for rods. What is held goes exactly with what holds it. Contacts are as for rods.
 //! - What has nothing to do with each other is solved on its own.
 //! - Largest friction forces are those of the first iterations of a step, so that the rest of them has a potential.
