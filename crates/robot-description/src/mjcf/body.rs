@@ -7,6 +7,7 @@ use nalgebra::{Translation3, Vector3};
 use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
+use super::flex::Reader;
 use super::inertia::Weighed;
 use super::touching::{BodyPlace, Pairs, TouchingGeom};
 use super::{Files, Model, Site};
@@ -111,6 +112,7 @@ impl<'a> Builder<'a> {
                     contents.inertial = Some(self.read_inertial(&attributes, place.pose));
                 }
                 "joint" | "freejoint" => {}
+                "flexcomp" | "composite" => self.add_flex(child, place),
                 other => {
                     let text = format!(
                         "<{}> is not read inside of <{}>",
@@ -131,6 +133,19 @@ impl<'a> Builder<'a> {
             link: place.link,
             pose,
             class: frame.attribute("childclass").unwrap_or(place.class),
+        }
+    }
+
+    fn add_flex(&mut self, element: &'a Element, place: &Place) {
+        let link_name = self.model.robot.links[place.link].name.clone();
+        let mut reader = Reader {
+            document: self.document,
+            report: &mut self.report,
+            link_name: &link_name,
+        };
+        match reader.read(element) {
+            Ok(flex) => self.model.flexes.push(flex.on(place.link, place.pose)),
+            Err(reason) => self.report.leave_out(element, reason),
         }
     }
 

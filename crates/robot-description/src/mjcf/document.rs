@@ -80,6 +80,11 @@ impl Settings {
         }
     }
 
+    /// Angles are in radians from now on.
+    pub fn use_radians(&mut self) {
+        self.is_radian = true;
+    }
+
     fn new(root: &Element, report: &mut Report) -> Self {
         let mut settings = Self {
             is_radian: false,

@@ -23,15 +23,20 @@ pub const MAX_NUMBER: f64 = 1e30;
 /// An element, wherever it was written.
 #[derive(Debug, Clone, Default)]
 pub struct Element {
+    /// Its name.
     pub name: String,
+    /// Names and values.
     pub attributes: Vec<(String, String)>,
+    /// The elements inside of it.
     pub children: Vec<Element>,
+    /// From 1.
     pub line: u32,
     /// The file that it is in, if that is included.
     file: Option<Rc<str>>,
 }
 
 impl Element {
+    /// The value of an attribute.
     pub fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes
             .iter()
@@ -112,6 +117,23 @@ pub fn read(
     files: &mut dyn Files,
     report: &mut Report,
 ) -> Result<Element, ReadError> {
+    let root = read_any(bytes, files, report)?;
+    if root.name != "mujoco" {
+        return Err(ReadError::WrongRoot {
+            line: root.line,
+            found: short(&root.name),
+            expected: "mujoco",
+        });
+    }
+    Ok(root)
+}
+
+/// The outermost element, whatever its name is.
+pub fn read_any(
+    bytes: &[u8],
+    files: &mut dyn Files,
+    report: &mut Report,
+) -> Result<Element, ReadError> {
     let mut reader = Reader {
         files,
         report,
@@ -122,15 +144,7 @@ pub fn read(
     };
     let mut roots = Vec::new();
     reader.add_file(bytes, None, 0, &mut roots)?;
-    let root = roots.pop().unwrap_or_default();
-    if root.name != "mujoco" {
-        return Err(ReadError::WrongRoot {
-            line: root.line,
-            found: short(&root.name),
-            expected: "mujoco",
-        });
-    }
-    Ok(root)
+    Ok(roots.pop().unwrap_or_default())
 }
 
 struct Reader<'a> {

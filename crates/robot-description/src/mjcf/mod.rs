@@ -1,4 +1,4 @@
-//! MJCF, the XML format of MuJoCo (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>): bodies, joints, geoms, actuators, sites, equality constraints.
+//! MJCF, the XML format of MuJoCo (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>): bodies, joints, geoms, actuators, sites, equality constraints, grids of `<flexcomp>` and composites.
 //!
 //! Files that a file includes are a part of it, classes of defaults and the settings of `<compiler>` are applied. A body with several joints becomes links
 //! without mass between them. What is not understood is a warning with its line.
@@ -14,6 +14,8 @@ mod body;
 mod document;
 mod element;
 mod equality;
+mod flex;
+mod fragment;
 mod geom;
 mod inertia;
 mod mesh_solid;
@@ -26,6 +28,10 @@ use crate::report::{Parsed, ReadError};
 use body::Builder;
 use document::Document;
 use element::Report;
+
+pub use element::Element;
+pub use flex::{Flex, FlexForm, FlexPin};
+pub use fragment::Fragment;
 
 /// What an MJCF file contains.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -48,6 +54,8 @@ pub struct Model {
     pub moving_surfaces: Vec<(usize, [f64; 6])>,
     /// The marked places.
     pub sites: Vec<Site>,
+    /// The soft things.
+    pub flexes: Vec<Flex>,
     /// What holds joints or links together beside the tree.
     pub equalities: Vec<Equality>,
     /// The pairs of links that may touch, each in increasing order. None where they are too many to say.
