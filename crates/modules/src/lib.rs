@@ -31,6 +31,7 @@ pub static ALL: &[&Module] = &[
     &modules_sensing::sim_icp::MODULE,
     &modules_motion::sim_ik::MODULE,
     &modules_sensing::sim_im::MODULE,
+    &modules_motion::sim_mujoco::MODULE,
     &modules_motion::sim_ompl::MODULE,
     &modules_geometry::sim_open_mesh::MODULE,
     &modules_windows::sim_qml::MODULE,

@@ -7,6 +7,7 @@ mod bases;
 mod between;
 mod constraints;
 mod export;
+mod flexes;
 mod joints;
 mod links;
 mod masks;
@@ -22,11 +23,12 @@ use std::collections::BTreeMap;
 
 use bitflags::bitflags;
 use robot_description::Robot;
-use robot_description::mjcf::{Actuator, Adhesion, Equality, Site};
+use robot_description::mjcf::{Actuator, Adhesion, Equality, Flex, Site};
 
 use super::scene_file::save;
 use super::ttt::File;
 pub use export::{RobotExportOptions, export};
+pub use flexes::{SoftShape, pin_nodes};
 use masks::Masks;
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
@@ -102,6 +104,7 @@ struct Description {
     actuators: Option<Vec<Actuator>>,
     sites: Vec<Site>,
     equalities: Vec<Equality>,
+    flexes: Vec<Flex>,
     /// The pairs of links that may touch, in increasing order, if the file says it.
     touching: Option<Vec<[usize; 2]>>,
     /// The fluid that the bodies are in.
@@ -193,6 +196,7 @@ impl RobotFile {
             import.add_links()?;
             import.add_sensors()?;
             import.add_sites()?;
+            import.add_flexes()?;
             import.add_constraints()?;
             import.report_dynamics();
             import.report_emptiness();

@@ -298,6 +298,7 @@ fn of_mjcf(model: mjcf::Model) -> Description {
         actuators,
         sites,
         equalities,
+        flexes,
         touching,
         adhesions,
         compensations,
@@ -319,6 +320,7 @@ fn of_mjcf(model: mjcf::Model) -> Description {
         actuators: Some(actuators),
         sites,
         equalities,
+        flexes,
         ..Description::default()
     }
 }

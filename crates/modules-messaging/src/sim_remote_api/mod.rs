@@ -39,6 +39,7 @@ pub static MODULE: Module = Module {
     hooks: Hooks {
         start_of_iteration: Some(services::start_of_iteration),
         before_step: Some(services::before_step),
+        before_dynamics: None,
         after_step: None,
         end_of_simulation: Some(services::end_of_simulation),
     },

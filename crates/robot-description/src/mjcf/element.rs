@@ -36,6 +36,15 @@ pub struct Element {
 }
 
 impl Element {
+    /// An element that no file has.
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            line: 1,
+            ..Self::default()
+        }
+    }
+
     /// The value of an attribute.
     pub fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes

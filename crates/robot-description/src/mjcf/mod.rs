@@ -231,6 +231,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     let world = |link: &Link| link.visuals.is_empty() && link.collisions.is_empty();
     if let [] | [_] = model.robot.links.as_slice()
         && model.robot.links.iter().all(world)
+        && model.flexes.is_empty()
     {
         report.warn(&root, "has no body and no geom");
     }

@@ -12,6 +12,8 @@ pub struct Hooks {
     pub start_of_iteration: Option<ModuleHook>,
     /// Before each simulation step that is due; true holds it back. It is asked again in the next iteration.
     pub before_step: Option<fn(&Host<'_>) -> bool>,
+    /// Before the physics moves the scene.
+    pub before_dynamics: Option<ModuleHook>,
     /// After each simulation step, before time goes on.
     pub after_step: Option<ModuleHook>,
     /// At the end of a simulation, after `sysCall_afterSimulation`.
@@ -23,6 +25,7 @@ impl Hooks {
     pub const NONE: Self = Self {
         start_of_iteration: None,
         before_step: None,
+        before_dynamics: None,
         after_step: None,
         end_of_simulation: None,
     };

@@ -290,6 +290,14 @@ impl Registry {
         }
     }
 
+    /// The function `module.name` that only the Lua part of the module has.
+    pub fn find_inner(&self, name: &str) -> Option<Member> {
+        let (module, member) = name.rsplit_once('.')?;
+        let mut inner = self.module(module)?.inner.iter();
+        let found = inner.find(|(own, _)| *own == member)?;
+        Some(Member::Native(found.1))
+    }
+
     pub(crate) fn missing_function(&self, id: MissingId) -> &Missing {
         &self.missing[id.0]
     }

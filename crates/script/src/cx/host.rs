@@ -78,12 +78,24 @@ impl Host<'_> {
     /// # Errors
     /// Those of the function.
     pub fn call_api(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
-        let sandbox = self
-            .sim()
-            .scripts
+        self.sim().call_api(&self.sandbox()?, name, args)
+    }
+
+    /// As [`Host::call_api`], for a function that only the Lua part of its module has.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn call_inner(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let sandbox = self.sandbox()?;
+        let member = self.sim().modules.registry.find_inner(name);
+        self.sim().call_member(&sandbox, member, name, args)
+    }
+
+    fn sandbox(&self) -> ApiResult<Rc<Script>> {
+        let scripts = &self.sim().scripts;
+        scripts
             .detached(ScriptType::Sandbox)
-            .ok_or(ApiError::NoSuchScript)?;
-        self.sim().call_api(&sandbox, name, args)
+            .ok_or(ApiError::NoSuchScript)
     }
 
     /// Calls a global function of a script.

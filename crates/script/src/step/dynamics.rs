@@ -22,6 +22,7 @@ impl Sim {
     /// # Errors
     /// When called by a script that this very call has called.
     pub(crate) fn handle_dynamics(self: &Rc<Self>, time_step: f64) -> ApiResult<i64> {
+        self.run_hooks(|hooks| hooks.before_dynamics);
         phases::physics(|| self.step_dynamics(time_step))
     }
 

@@ -111,7 +111,8 @@ impl Soft {
         }
     }
 
-    fn mesh(&self, points: &[[f64; 3]], broken: &[bool]) -> Mesh {
+    /// Its mesh with points in these places, without what is broken.
+    pub fn mesh(&self, points: &[[f64; 3]], broken: &[bool]) -> Mesh {
         match self {
             Self::Rope(rope) => rope::tube(points, rope.radius, broken),
             Self::Body(body) => mesh::of_body(body, points, broken),
