@@ -1,4 +1,4 @@
--- simMujoco: what injections become, what of them is named, and when they go.
+-- simMujoco: what injections become, what of them is named, and when they go (spec: simmujoco 1).
 local t = require 'swanilda.test'
 
 local function near(expected, value, tolerance) assert.is_true(math.abs(value - expected) < tolerance, value .. ' is not ' .. expected) end
@@ -138,7 +138,7 @@ describe('an injection', function()
     end)
 
     it('names what has no counterpart, once', function()
-        simMujoco.addInjection {element = 'mujoco', xml = '<tendon><spatial/></tendon><option integrator="RK4"/>'}
+        simMujoco.injectXML('<tendon><spatial/></tendon><option integrator="RK4"/>', 'mujoco')
         simMujoco.addInjection {shapeHandle = box, xml = '<geom size="1"/><geom size="2"/>'}
         t.run_for(0.2)
         local texts = {}

@@ -31,6 +31,10 @@ pub(super) fn make_pending(cx: &mut Cx) -> Result<()> {
         };
         let info = changed(&injection);
         injections.change(id, |one| one.info = info.clone());
+        // The callback may have taken it out.
+        if injections.get(id).is_none() {
+            continue;
+        }
         let made = describe(cx, injection.kind, &info, &injection.xml);
         match made.and_then(|described| make_softs(cx, id, described)) {
             Ok(described) => all.push((id, described)),

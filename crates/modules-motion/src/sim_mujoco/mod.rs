@@ -1,4 +1,4 @@
-//! `simMujoco`: what scripts put into MuJoCo's model, on top of the soft shapes and loop closures that are here (spec: simMujoco).
+//! `simMujoco`: what scripts put into MuJoCo's model, on top of the soft shapes and loop closures that are here (spec: simmujoco 1).
 //!
 //! An injection is read when it is added, so that mistakes are errors of its caller. It becomes objects when the physics is about to move the scene
 //! (`Hooks::before_dynamics`), after its callback; they go with it, with its script, and with the simulation.

@@ -13,6 +13,8 @@ use crate::xml::{self, Source, short};
 const MAX_DEPTH: usize = 128;
 /// Bytes of an attribute: very many parts of the model may get a copy of its value.
 const MAX_ATTRIBUTE_BYTES: usize = 2000;
+/// Lists of nodes, of which no defaults make copies, may be as long as the file.
+const LISTS: &[&str] = &["vertex", "id"];
 /// Levels of files that include files.
 const MAX_INCLUDE_DEPTH: usize = 8;
 /// Included files in all.
@@ -156,6 +158,10 @@ pub fn read_any(
     Ok(roots.pop().unwrap_or_default())
 }
 
+fn is_read(attribute: &Attribute) -> bool {
+    attribute.value().len() <= MAX_ATTRIBUTE_BYTES || LISTS.contains(&attribute.name())
+}
+
 struct Reader<'a> {
     files: &'a mut dyn Files,
     report: &'a mut Report,
@@ -197,9 +203,8 @@ impl Reader<'_> {
         if self.nodes > limits::NODES as usize {
             return Err(ReadError::TooManyNodes);
         }
-        let (attributes, long): (Vec<_>, Vec<_>) = node
-            .attributes()
-            .partition(|attribute| attribute.value().len() <= MAX_ATTRIBUTE_BYTES);
+        let (attributes, long): (Vec<_>, Vec<_>) =
+            node.attributes().partition(|attribute| is_read(attribute));
         let owned = |attribute: Attribute| {
             (
                 attribute.name().to_owned(),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point3, Vector3};
 
-use super::flexcomp::config;
+use super::flexcomp::{PLANE_OF_EDGES, SOLID_OF_EDGES, config};
 use super::grid::{Grid, surface};
 use super::holding::Holding;
 use super::section::{Section, of_kind};
@@ -292,9 +292,9 @@ fn net<'a>(
         },
         2 => FlexForm::Sheet {
             triangles: grid.triangles(),
-            stretch: edges.stiffness,
+            stretch: PLANE_OF_EDGES[0] * edges.stiffness,
             bend: if is_cloth { joint.stiffness } else { 0.0 },
-            poisson: 0.3,
+            poisson: PLANE_OF_EDGES[1],
         },
         _ => return Err("its count is not along one or two axes".into()),
     };
@@ -386,9 +386,9 @@ fn solid<'a>(
     let spring = match joint {
         Some(joint) => {
             let own = reader.spring(&joint);
-            own.with(reader.constraint(&joint, ["solreffix", "solimpfix"], 2.0 * node_mass))
+            own.with(reader.constraint(&joint, ["solreffix", "solimpfix"], node_mass))
         }
-        None => reader.constraint(attributes, ["solreffix", "solimpfix"], 2.0 * node_mass),
+        None => reader.constraint(attributes, ["solreffix", "solimpfix"], node_mass),
     };
     let tetrahedra = grid.tetrahedra();
     let shape = attributes.get("type").unwrap_or_default();
@@ -401,8 +401,8 @@ fn solid<'a>(
         form: FlexForm::Solid {
             triangles: surface(&tetrahedra),
             tetrahedra,
-            young: spring.stiffness / grid.spacing[0],
-            poisson: 0.3,
+            young: SOLID_OF_EDGES[0] * spring.stiffness / grid.spacing[0],
+            poisson: SOLID_OF_EDGES[1],
         },
         damping: spring.ratio(),
         pins: middle(&grid),

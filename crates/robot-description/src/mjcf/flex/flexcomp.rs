@@ -13,8 +13,10 @@ use crate::xml::short;
 const READ: &[&str] = &["edge", "elasticity", "contact", "pin", "plugin"];
 /// How much less than a solid rod a line of edges resists bending.
 pub(super) const SLACKNESS: f64 = 1e-3;
-/// Poisson's ratio of what is only held by edges.
-const POISSON_OF_EDGES: f64 = 0.3;
+/// What edges of stiffness 1 along two axes and a diagonal make of a plane of distance 1: force per strain and width, Poisson's ratio.
+pub(super) const PLANE_OF_EDGES: [f64; 2] = [1.5, 1.0 / 3.0];
+/// What edges along three axes, a diagonal of each face and one through the cell make: Young's modulus, Poisson's ratio.
+pub(super) const SOLID_OF_EDGES: [f64; 2] = [1.89, 0.26];
 
 /// What an elastic material is made of.
 #[derive(Debug, Clone, Copy, Default)]
@@ -183,11 +185,11 @@ fn form(grid: &Grid, radius: f64, edges: Holding, material: Material) -> FlexFor
             FlexForm::Solid {
                 triangles: surface(&tetrahedra),
                 tetrahedra,
-                young: material.young + edges.stiffness / spacing,
+                young: material.young + SOLID_OF_EDGES[0] * edges.stiffness / spacing,
                 poisson: if is_material {
                     material.poisson
                 } else {
-                    POISSON_OF_EDGES
+                    SOLID_OF_EDGES[1]
                 },
             }
         }
@@ -206,12 +208,12 @@ fn sheet(grid: &Grid, edges: Holding, material: Material) -> FlexForm {
     let least = if edges.stiffness == 0.0 { stretch } else { 0.0 };
     FlexForm::Sheet {
         triangles: grid.triangles(),
-        stretch: (edges.stiffness + of_material).max(least),
+        stretch: (PLANE_OF_EDGES[0] * edges.stiffness + of_material).max(least),
         bend: if is_bent { bend } else { 0.0 },
         poisson: if is_stretched {
             poisson
         } else {
-            POISSON_OF_EDGES
+            PLANE_OF_EDGES[1]
         },
     }
 }

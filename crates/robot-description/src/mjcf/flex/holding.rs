@@ -36,8 +36,8 @@ impl Holding {
 }
 
 impl Reader<'_> {
-    /// What a constraint between two nodes of that mass holds them with: near its rest MuJoCo's acceleration -b v - k r, with impedance d, needs (1 - d) / d of
-    /// what the nodes would do without it.
+    /// What a constraint between two nodes of that mass holds them with. MuJoCo gives way to a force f by an acceleration (1 - d) / d times f / m, and goes back by
+    /// b v + k d r; its impedance d is taken as that of errors beyond a millimetre.
     pub fn constraint(
         &mut self,
         attributes: &Attributes,
@@ -46,18 +46,18 @@ impl Reader<'_> {
     ) -> Holding {
         let [first, second] = attributes.numbers(self.report, solref, SOLREF);
         let impedances = attributes.numbers(self.report, solimp, SOLIMP);
-        let [least, most] = impedances.map(|d| d.clamp(1e-4, 0.9999));
+        let most = impedances[1].clamp(1e-4, 0.9999);
         let [stiffness, damping] = if first > 0.0 && second > 0.0 {
             let period = most * first;
             [(period * second).powi(2).recip(), 2.0 / period]
         } else if first < 0.0 && second < 0.0 {
-            [-first * least / (most * most), -second / most]
+            [-first / most, -second / most]
         } else {
             [0.0; 2]
         };
-        let inertia = 0.5 * node_mass * least / (1.0 - least);
+        let inertia = node_mass * most / (1.0 - most);
         Holding {
-            stiffness: inertia * stiffness,
+            stiffness: inertia * most * stiffness,
             damping: inertia * damping,
         }
     }
