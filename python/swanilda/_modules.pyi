@@ -7767,6 +7767,49 @@ class _simIM:
         sensorHandle: the sensor
         """
 
+class _simMujoco:
+    def addFlexcomp(self, info: Mapping[Any, Any], /) -> int:
+        """Adds something soft: a rope (nodes along one axis), a cloth (two) or a volume (three).
+        info: beside what all have: `name` (unique), `type` ('grid'), `count` (three numbers of nodes), `spacing` (three distances, m), `radius` (m), `mass` (kg, of all), `pose` (seven numbers), `pin` (nodes that do not move, from 0), `extraFlexcompXml` (attributes of `<flexcomp>` as a text), `extraXml` (elements within it: `<edge>`, `<elasticity>`, `<contact>`, `<pin>`, `<plugin>`)
+        """
+    def addInjection(self, info: Mapping[Any, Any], /) -> int:
+        """Adds elements of MJCF: `<flexcomp>`, `<composite>`, `<connect>` and `<weld>`, `<option>` act.
+        info: beside what all have: `xml`, the elements
+        """
+    def composite(self, xml: str, info: Mapping[Any, Any], /) -> int:
+        """Adds something soft in the older form: `cable`, or of MuJoCo before 3: `rope`, `cloth`, `grid`, `box`, `cylinder`, `ellipsoid`.
+        xml: a `<composite>` element
+        info: beside what all have: `prefix` (unique), `type`, `count`, `respondableMask`, `grow` (m, for getCompositeInfo)
+        """
+    def getCompositeInfo(self, injectionId: int, what: int, /) -> Any:
+        """Where the nodes of a composite are, or the triangles between them.
+        injectionId: from composite
+        what: 0: positions of the nodes; 1: their poses; 2: triangles to be drawn; 3: triangles grown by `grow`
+        """
+    def getFlexcompInfo(self, injectionId: int, what: int, /) -> Any:
+        """Where the nodes of a flexcomp are, or the triangles between them.
+        injectionId: from addFlexcomp
+        what: 0: positions of the nodes; 1: triangles to be drawn
+        """
+    def getInfo(self, what: str, /) -> str:
+        """What the model contains, as a text.
+        what: 'nameAndIds': a line for each body, with the name by which `element` finds it, a tab and its handle; 'bodies': the names only
+        """
+    def injectXML(self, xml: str, where: Any | None = ..., info: Mapping[Any, Any] | None = ..., /) -> int:
+        """Adds elements of MJCF, as addInjection does.
+        xml: the elements
+        where: a shape, or the name of an element
+        info: beside what all have: nothing
+        """
+    def removeInjection(self, injectionId: int, /) -> None:
+        """Takes an injection out of the model again, with what it has become.
+        injectionId: from addFlexcomp, composite or addInjection
+        """
+    def removeXML(self, injectionId: int, /) -> None:
+        """Takes an injection out of the model again, as removeInjection does.
+        injectionId: from injectXML
+        """
+
 class _simOMPL:
     Algorithm: Any
     StateSpaceType: Any
@@ -10885,6 +10928,8 @@ class Requires:
     def require(self, name: Literal["simIK"], script: int | None = None) -> _simIK: ...
     @overload
     def require(self, name: Literal["simIM"], script: int | None = None) -> _simIM: ...
+    @overload
+    def require(self, name: Literal["simMujoco"], script: int | None = None) -> _simMujoco: ...
     @overload
     def require(self, name: Literal["simOMPL"], script: int | None = None) -> _simOMPL: ...
     @overload
