@@ -136,6 +136,23 @@ def errors_are_marked_at_their_lines(browser):
     browser.shows(f"{mark} == 0", "no error")
 
 
+def errors_in_python_are_marked_at_their_columns(browser):
+    """As Python's compiler finds them, which runs nothing."""
+    make = "h = sim.createScript(sim.scripttype_customization, '#python\\ndef sysCall_init():\\n    pass\\n', 0, 'python') sim.setObjectAlias(h, 'snake')"
+    browser.evaluate(f"swanilda.source.request('run', {{code: {json.dumps(make)}}})")
+    edits(browser, "snake")
+    press(browser, "End", CTRL)
+    write(browser, "b = = 2")
+    mark = "[...document.querySelectorAll('.cm-line')].flatMap((line, i) => [...line.querySelectorAll('.cm-lintRange-error')].map(({textContent}) => [i + 1, textContent]))"
+    browser.shows(f"JSON.stringify({mark}) == '[[4,\"=\"]]'", "the column of the error")
+    for _ in range(4):
+        press(browser, "Backspace")
+    browser.shows(f"JSON.stringify({mark}) != '[[4,\"=\"]]'", "another error, or none")
+    write(browser, " 2")
+    browser.shows(f"{mark}.length == 0", "no error")
+    click(browser, BUTTON.format("Discard"))
+
+
 def search_finds(browser):
     press(browser, "f", CTRL)
     browser.shows("!!document.querySelector('.cm-search input')", "the search")
@@ -213,16 +230,21 @@ def two_pages_do_not_lose_their_work(browser, other):
     same("nothing to save", other.evaluate(TITLE)[0] == "●", False)
 
 
+def edits(browser, alias):
+    """Begins to edit another script, whose editor has come before."""
+    script = f"[...swanilda.store.objects.values()].find(object => object.alias == '{alias}')"
+    browser.shows(f"!!{script}", "another script")
+    browser.evaluate(f"swanilda.openScript({script}.handle)")
+    browser.shows(f"{TITLE} == '/{alias}' && {PENCIL}", "its text")
+    click(browser, "document.querySelector('#script [title=\"Change the text\"]')")
+    browser.shows("!!swanilda.script.editing.editor", "the editor")
+
+
 def ends_of_lines_stay(browser):
     """As in a text from Windows."""
     make = "h = sim.createScript(sim.scripttype_customization, 'a = 1\\r\\nb = 2\\r\\n') sim.setObjectAlias(h, 'windows')"
     browser.evaluate(f"swanilda.source.request('run', {{code: {json.dumps(make)}}})")
-    other = "[...swanilda.store.objects.values()].find(object => object.alias == 'windows')"
-    browser.shows(f"!!{other}", "another script")
-    browser.evaluate(f"swanilda.openScript({other}.handle)")
-    browser.shows(f"{TITLE} == '/windows' && {PENCIL}", "its text")
-    click(browser, "document.querySelector('#script [title=\"Change the text\"]')")
-    browser.shows("!!swanilda.script.editing.editor", "the editor")
+    edits(browser, "windows")
     press(browser, "End")
     write(browser, "0\n")
     same("the text", browser.evaluate(TEXT), "a = 10\r\n\r\nb = 2\r\n")
@@ -260,6 +282,7 @@ def main():
                 search_finds(browser)
                 keys_leave_the_text(browser)
                 ends_of_lines_stay(browser)
+                errors_in_python_are_marked_at_their_columns(browser)
                 begins_to_edit(browser)
             is_saved_while_the_simulation_runs(browser, sim)
             errors_of_the_run_are_marked(browser)

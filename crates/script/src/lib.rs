@@ -126,4 +126,6 @@ pub use lua_runtime::{LuaLanguage, running_callback};
 pub use person::Ask;
 pub use present::{Present, Situation, Watcher};
 pub use property::{OLD_SIGNALS, PropertyTarget, table as property_table};
-pub use python_runtime::{PythonLanguage, is_short, python_interpreter, python_parts};
+pub use python_runtime::{
+    PythonLanguage, is_short, python_command, python_interpreter, python_parts,
+};

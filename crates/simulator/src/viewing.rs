@@ -9,7 +9,7 @@ use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, Scene, ValueType};
 use script::log::RecentLine;
 use script::property_table::{ValueSource, flags};
-use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher};
+use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher, python_command};
 
 /// A property of an object, of the scene or of the application.
 #[derive(Clone)]
@@ -167,6 +167,15 @@ impl Simulator {
     pub fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
         let script = self.found(handle)?;
         Ok(self.copied(|sim| sim.text_of(&script)))
+    }
+
+    /// The Python that programs for a script get, with its arguments; None where programs must not be started.
+    ///
+    /// # Errors
+    /// When there is no script with that handle.
+    pub fn python_command(&self, handle: i64) -> Result<Option<Vec<String>>, ApiError> {
+        let script = self.found(handle)?;
+        Ok(self.copied(|sim| python_command(sim, &script)))
     }
 
     /// Calls `sysCall_userConfig` of a script, as a double click on its symbol does; whether it has such a function.

@@ -51,6 +51,13 @@ const hovered = hoverTooltip(async (view, pos) => {
   return entry ? { pos: pos - before.length, end: pos + after.length, above: true, create: () => ({ dom: description(entry) }) } : null;
 });
 
+/** The place of an error: its columns, which are counted from 1, or its line if it has none there. */
+function marked(doc, { line, column, end }) {
+  const { from, to } = doc.line(Math.min(Math.max(line, 1), doc.lines));
+  if (!column || from + column > to) return { from, to };
+  return { from: from + column - 1, to: end > column ? Math.min(from + end - 1, to) : to };
+}
+
 /** Errors: those of the syntax, which `check` finds, and the last one of the run, which moves with its line. */
 class Errors {
   constructor(check) {
@@ -68,10 +75,10 @@ class Errors {
   async _found(view) {
     const { doc } = view.state;
     const wrong = await this.check(doc.toString()).catch(() => null);
-    const lines = [];
-    if (wrong) lines.push([doc.line(Math.min(Math.max(wrong.line, 1), doc.lines)), wrong.message]);
-    if (this.place !== null) lines.push([doc.lineAt(Math.min(this.place, doc.length)), this.message]);
-    return lines.map(([{ from, to }, message]) => ({ from, to, severity: 'error', message }));
+    const found = [];
+    if (wrong) found.push([marked(doc, wrong), wrong.message]);
+    if (this.place !== null) found.push([doc.lineAt(Math.min(this.place, doc.length)), this.message]);
+    return found.map(([{ from, to }, message]) => ({ from, to, severity: 'error', message }));
   }
 
   /** @param {{line?: number, message: string} | null} error of the run */
@@ -110,7 +117,7 @@ function extensions({ text, language, label, onChange, onSave }, errors, breakpo
 
 /**
  * An editor in an element.
- * @param {{parent: HTMLElement, text: string, kept?: any, language: string, label: string, onChange: (text: string) => void, onSave: () => void, check: (text: string) => Promise<{line: number, message: string} | null>, onBreakpoints?: ((breakpoints: any[]) => void) | null}} options
+ * @param {{parent: HTMLElement, text: string, kept?: any, language: string, label: string, onChange: (text: string) => void, onSave: () => void, check: (text: string) => Promise<{line: number, column?: number | null, end?: number | null, message: string} | null>, onBreakpoints?: ((breakpoints: any[]) => void) | null}} options
  * `kept` is what `keep` of an earlier one has returned: its text, its selection, and what can be undone.
  */
 export function makeEditor(options) {

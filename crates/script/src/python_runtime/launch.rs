@@ -93,6 +93,19 @@ fn environment_beside(folders: &[PathBuf]) -> Option<String> {
 
 /// The folders of the script's file and of the scene, then those in which scripts find their modules.
 pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
+    let mut all: Vec<PathBuf> = Vec::new();
+    for folder in named_folders(sim, script) {
+        let absolute = sim.options.permissions.absolute(&folder);
+        let folder = absolute.unwrap_or(folder);
+        if !all.contains(&folder) {
+            all.push(folder);
+        }
+    }
+    all
+}
+
+/// The same as they are named.
+fn named_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
     let files = [
         script.file.borrow().clone().unwrap_or_default(),
         sim.scene_path(),
@@ -102,15 +115,9 @@ pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
         .iter()
         .filter_map(folder)
         .filter(|folder| folder != Path::new(""));
-    let mut all: Vec<PathBuf> = Vec::new();
-    for folder in folders.chain(sim.options.package_dirs.iter().cloned()) {
-        let absolute = sim.options.permissions.absolute(&folder);
-        let folder = absolute.unwrap_or(folder);
-        if !all.contains(&folder) {
-            all.push(folder);
-        }
-    }
-    all
+    folders
+        .chain(sim.options.package_dirs.iter().cloned())
+        .collect()
 }
 
 /// Makes a script without a text in the program's Python.
@@ -147,29 +154,41 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
 /// When programs must not be started, or there is no such interpreter.
 pub fn start_python(env: &Env, parts: &[(&str, &str)]) -> Result<PeerProcess, LaunchError> {
     let sim = env.sim.upgrade().ok_or(LaunchError::NoSimulator)?;
-    let interpreter = chosen_interpreter(&sim, None)
-        .or_else(|| environment_beside(&scene_folders(&sim, &env.script)))
-        .or_else(|| sim.options.python.clone())
-        .unwrap_or_else(|| "python3".into());
+    let interpreter = interpreter_beside(&sim, &scene_folders(&sim, &env.script));
     start_modules(&sim, &interpreter, &modules(parts))
+}
+
+/// The interpreter of that program.
+fn interpreter_beside(sim: &Sim, folders: &[PathBuf]) -> String {
+    chosen_interpreter(sim, None)
+        .or_else(|| environment_beside(folders))
+        .or_else(|| sim.options.python.clone())
+        .unwrap_or_else(|| "python3".into())
+}
+
+/// The same interpreter with its arguments, for whoever starts it outside of the run, of whose capture this is no part; None where programs must not
+/// be started.
+pub fn python_command(sim: &Sim, script: &Script) -> Option<Vec<String>> {
+    let interpreter = interpreter_beside(sim, &named_folders(sim, script));
+    sim.options.permissions.check_run(&interpreter).ok()?;
+    let words = words(&interpreter);
+    Some(words.into_iter().map(str::to_owned).collect())
+}
+
+/// A program and its arguments. A path may contain blanks.
+fn words(interpreter: &str) -> Vec<&str> {
+    if Path::new(interpreter).is_file() {
+        vec![interpreter]
+    } else {
+        interpreter.split_whitespace().collect()
+    }
 }
 
 fn start_modules(sim: &Sim, interpreter: &str, modules: &[u8]) -> Result<PeerProcess, LaunchError> {
     sim.options.permissions.check_run(interpreter)?;
-    let path = Path::new(interpreter);
-    let mut words = interpreter.split_whitespace();
-    // A path may contain blanks.
-    let program = if path.is_file() {
-        interpreter
-    } else {
-        words.next().unwrap_or(interpreter)
-    };
-    let mut args: Vec<&str> = if path.is_file() {
-        Vec::new()
-    } else {
-        words.collect()
-    };
-    args.extend(["-c", GUARDIAN]);
+    let mut words = words(interpreter).into_iter();
+    let program = words.next().unwrap_or(interpreter);
+    let args: Vec<&str> = words.chain(["-c", GUARDIAN]).collect();
     let failed = |reason| LaunchError::NotStarted {
         program: interpreter.to_owned(),
         reason,

@@ -29,7 +29,7 @@ use crate::sys_call::SysCall;
 use conversation::{Conversation, LIBRARY};
 pub use embedding::is_short;
 pub use embedding::{EmbeddedScript, PythonHost, ScriptCalls};
-pub use launch::{LaunchError, start_python};
+pub use launch::{LaunchError, python_command, start_python};
 use line_counts::Own;
 use link::{Link, Peer};
 use scene::Data;

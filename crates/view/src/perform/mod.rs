@@ -58,7 +58,7 @@ pub(crate) fn perform(
         | Action::Show { .. }
         | Action::Sample(_)
         | Action::Author(_)
-        | Action::Check(_) => {}
+        | Action::Check { .. } => {}
         Action::Inspect(Some(handle)) => {
             let rows = rows(sim, *handle)?.into_iter().map(|(_, row)| row);
             return Ok(rows.collect());

@@ -54,8 +54,11 @@ pub(crate) enum Action {
         text: String,
         version: String,
     },
-    /// Whether a text is Lua.
-    Check(String),
+    /// Whether a text is Lua, or Python.
+    Check {
+        code: String,
+        is_python: bool,
+    },
     /// Opens the settings of a model, which a script of it has.
     Configure(i64),
     Watch(Vec<i64>),
@@ -179,7 +182,9 @@ impl Action {
             } => {
                 json!({ "do": "saveScript", "handle": handle, "text": text, "version": version })
             }
-            Self::Check(code) => json!({ "do": "check", "code": code }),
+            Self::Check { code, is_python } => {
+                json!({ "do": "check", "code": code, "language": language(*is_python) })
+            }
             Self::Configure(handle) => json!({ "do": "configure", "handle": handle }),
             Self::Watch(handles) => json!({ "do": "watch", "handles": handles }),
             Self::Show { contacts } => json!({ "do": "show", "contacts": contacts }),
@@ -239,7 +244,7 @@ impl Action {
             self,
             Self::Inspect(_)
                 | Self::Script(_)
-                | Self::Check(_)
+                | Self::Check { .. }
                 | Self::Watch(_)
                 | Self::Show { .. }
                 | Self::Sample(_)
@@ -325,7 +330,10 @@ fn action(members: &Members) -> Result<Action, String> {
             text: text_up_to(members, "text", MAX_SCRIPT_LENGTH)?,
             version: text(members, "version")?,
         },
-        "check" => Action::Check(text_up_to(members, "code", MAX_SCRIPT_LENGTH)?),
+        "check" => Action::Check {
+            code: text_up_to(members, "code", MAX_SCRIPT_LENGTH)?,
+            is_python: is_python(members)?,
+        },
         "configure" => Action::Configure(handle(members)?),
         "watch" => Action::Watch(handles(members)?),
         "show" => Action::Show {
@@ -391,6 +399,19 @@ fn action(members: &Members) -> Result<Action, String> {
         }
         other => return Err(format!("unknown request: {}", shortened(other))),
     })
+}
+
+/// Lua, where nothing is said.
+fn is_python(members: &Members) -> Result<bool, String> {
+    let said = members.get("language").map_or(Some("lua"), Value::as_str);
+    [false, true]
+        .into_iter()
+        .find(|is_python| said == Some(language(*is_python)))
+        .ok_or_else(|| "`language` is `lua` or `python`".to_owned())
+}
+
+const fn language(is_python: bool) -> &'static str {
+    if is_python { "python" } else { "lua" }
 }
 
 /// The number that changes have in common which are one step of undo.

@@ -1,6 +1,7 @@
 //! The server of the viewer: what its threads and the simulation's thread share, addresses, and one visitor for each page.
 
 mod assets;
+mod python_check;
 mod recorded;
 mod reference;
 mod site;
@@ -18,6 +19,7 @@ use super::request::Action;
 use super::sample::{Followed, Samples};
 pub use assets::page_file;
 use io::SiteWaker;
+use python_check::PythonCheck;
 pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
 
@@ -47,6 +49,8 @@ pub(crate) struct Shared {
     /// A page has asked for a stop that is not carried out yet.
     stop_requested: AtomicBool,
     busy: Mutex<Busy>,
+    /// What checks texts in Python.
+    python: PythonCheck,
     /// Pages are told of what is new by it.
     waker: OnceLock<SiteWaker>,
     /// Why the simulator ends, once it does.
@@ -220,6 +224,11 @@ impl Shared {
 
     pub(crate) fn has_debugger(&self) -> bool {
         self.has_debugger.load(Ordering::Relaxed)
+    }
+
+    /// Texts in Python are checked by this program with these arguments. Who may only read starts none.
+    pub(crate) fn check_python_with(&self, command: Option<Vec<String>>) {
+        self.python.set(command.filter(|_| !self.is_read_only));
     }
 
     /// Pages are told by it of what is new.

@@ -95,15 +95,29 @@ impl Page {
                     .change_demand(self.id, |demand| demand.inspected = *handle);
                 return Ok(Some(request));
             }
-            Action::Check(code) => {
-                // It needs no simulation, and so an answer comes also while that is busy.
-                lock(&self.replies).push_back(reply(&request.id, Ok(checked(code))));
+            // It needs no simulation, and so an answer comes also while that is busy.
+            Action::Check { code, is_python } => {
+                if *is_python {
+                    self.check_python(code, &request.id)?;
+                } else {
+                    lock(&self.replies).push_back(reply(&request.id, Ok(checked(code))));
+                }
                 return Ok(None);
             }
             _ => return Ok(Some(request)),
         }
         lock(&self.replies).push_back(reply(&request.id, Ok(Value::Bool(true))));
         Ok(None)
+    }
+
+    /// The answer comes from a thread of its own.
+    fn check_python(&self, code: &str, id: &Value) -> Result<(), String> {
+        let (replies, shared) = (Arc::clone(&self.replies), Arc::clone(&self.shared));
+        let id = id.clone();
+        self.shared.python.check(code, move |error| {
+            lock(&replies).push_back(reply(&id, Ok(error.unwrap_or_default())));
+            shared.wake();
+        })
     }
 
     /// Images, contacts and values that this page asked for.

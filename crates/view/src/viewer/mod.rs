@@ -263,7 +263,16 @@ impl Viewer {
         let answer = perform(sim, action, &mut self.lines, &mut self.editor);
         self.pulls.note(action, sim.steps(), &answer);
         self.look_again(action, answer.is_err());
+        self.note_python(sim, action);
         answer
+    }
+
+    /// Whoever changes a text has read it before: from then on it can be checked.
+    fn note_python(&self, sim: &Simulator, action: &Action) {
+        if let Action::Script(handle) = action {
+            let command = sim.python_command(*handle).ok().flatten();
+            self.shared.check_python_with(command);
+        }
     }
 
     /// Breakpoints lie in the memory of scripts, which an undo has brought back, and what has failed.

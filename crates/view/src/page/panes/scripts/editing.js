@@ -60,7 +60,7 @@ export class ScriptEditing {
     const make = await loaded();
     if (this.draft !== draft) return;
     const { language, text, kept } = draft;
-    const check = (code) => (language === 'lua' ? this.page.source.request('check', { code }) : Promise.resolve(null));
+    const check = (code) => this.page.source.request('check', { code, language });
     const onBreakpoints = this.debugging.possible(language) ? (all) => this._setBreakpoints(all) : null;
     this.editor = make({ parent: this.place, text, kept, language, label: 'Text of the script', check, onBreakpoints, onChange: (text) => this._typed(text), onSave: () => this.save() });
     this.editor.showBreakpoints(draft.breakpoints ?? this.debugging.of(draft.handle));
