@@ -138,6 +138,26 @@ def numbers_change_by_keys_and_dragging(browser):
     same("Escape takes it back", browser.evaluate(f"{field}.value + ' ' + sets"), "0.2910 4")
 
 
+def long_numbers_are_not_cut(browser):
+    """Fewer figures where there is no room, and all of them in the title and while the field is edited."""
+    run(browser, "sim.setFloatArrayProperty(turn, 'maxVelAccelJerk', {25000.125, -123456.75, 1e-7}) sim.setObjectPosition(turn, {-12345678.25, 2500.5, 0})")
+    choose(browser, "turn")
+    browser.evaluate("document.querySelectorAll('.properties details').forEach(group => (group.open = true))")
+    fields = "[...document.querySelectorAll('.properties input.number[inputmode], .pose-block input')].filter(field => field.offsetWidth)"
+    browser.shows(f"{fields}.length > 40 && {fields}.every(field => field.scrollWidth <= field.clientWidth)", "all figures that are shown")
+    off = f"{fields}.filter(field => Math.abs(Number(field.value) - parseFloat(field.title || field.value)) > 0.06 * Math.abs(Number(field.value)))"
+    same("what is shown as another number", browser.evaluate(f"{off}.filter(field => Math.abs(parseFloat(field.title)) > 1e-3).map(field => [field.value, field.title])"), [])
+    x = pose_field("x")
+    short, title = browser.evaluate(f"[{x}.value, {x}.title]")
+    near("x of the pose", float(short), -12345678.25, 1e5)
+    same("its title", title, "-12345678.25 m")
+    same("y of the pose", browser.evaluate(f"[Number({pose_field('y')}.value), {pose_field('y')}.title]"), [2500.5, ""])
+    click(browser, middle(browser, x))
+    same("x while it is edited", browser.evaluate(f"{x}.value"), "-1.2346e+7")
+    key(browser, "Escape")
+    same("afterwards", browser.evaluate(f"{x}.value"), short)
+
+
 def main():
     with Simulator("--empty", "--paused", "--no-open", command="view") as sim, Browser(program() or sys.exit("there is no Chromium"), WITH_WEBGL) as browser:
         for domain in ("Page", "Runtime", "Log"):
@@ -152,6 +172,7 @@ def main():
         what_matters_comes_first(browser)
         units_are_those_of_the_joint(browser)
         numbers_change_by_keys_and_dragging(browser)
+        long_numbers_are_not_cut(browser)
         same("exceptions", [event for event in browser.events if event["method"] == "Runtime.exceptionThrown"], [])
 
 

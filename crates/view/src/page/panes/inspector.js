@@ -34,7 +34,7 @@ export class InspectorPane {
     this.kind = el('p', { class: 'inspected-kind' });
     this.tools = el('div', { class: 'inspected-tools' });
     this.search = el('input', { type: 'search', placeholder: 'Search properties', 'aria-label': 'Search properties', oninput: () => this._filter() });
-    this.list = el('div', { class: 'properties' });
+    this.list = el('div', { class: 'properties', onpointerover: ({ target }) => showWhole(target) });
     this.hint = el('p', { class: 'hint' });
     this.picture = el('canvas', { class: 'sensor-image', hidden: true, role: 'img', 'aria-label': 'Image of the vision sensor' });
     this.sparkline = new Sparkline();
@@ -230,6 +230,13 @@ export class InspectorPane {
     for (const { row, element } of this.rows.values()) element.hidden = !!text && !`${row.name} ${row.label}`.toLowerCase().includes(text);
     for (const group of this.list.querySelectorAll('.group')) group.hidden = [...group.querySelectorAll('.property')].every((row) => row.hidden);
   }
+}
+
+/** A text that is cut has the whole of it as title; fields for numbers have their own. */
+function showWhole(element) {
+  if (!element.matches('output.value, input.value:not([inputmode])')) return;
+  const isCut = element.scrollWidth > element.clientWidth || element.scrollHeight > element.clientHeight + 2;
+  element.title = isCut ? element.value : '';
 }
 
 /** `forceSensor` in words. */

@@ -1,7 +1,7 @@
 // Values of properties as text and as fields to edit.
 import { el } from '../dom.js';
 import { CHOICES } from './inspect/essentials.js';
-import { decimal, NumberField, NumberList } from './inspect/number.js';
+import { decimal, NumberField, NumberList, short } from './inspect/number.js';
 import { shownUnit } from './inspect/units.js';
 
 const NUMBERS = new Set(['int', 'long', 'float', 'handle']);
@@ -82,17 +82,21 @@ function choice({ name, value }, label, change) {
 
 function field(row, label, change, isList) {
   const { type } = row;
-  const element = el('input', { type: 'text', class: isList ? 'value number' : 'value', value: text(row.value, type), 'aria-label': label, spellcheck: 'false' });
-  const parse = () => (isList ? element.value.split(/[\s,]+/).filter(Boolean).map(Number) : element.value);
+  const figures = (x) => (INTEGERS.has(type) ? String(x) : short(x, ''));
+  const shown = (value) => (isList ? value.map(figures).join(', ') : text(value, type));
+  const element = el('input', { type: 'text', class: isList ? 'value number' : 'value', value: shown(row.value), 'aria-label': label, spellcheck: 'false' });
+  // What was not touched stays as it is, with all of its figures.
+  const numbers = () => element.value.split(/[\s,]+/).filter(Boolean).map((word, i) => (i in row.value && word === figures(row.value[i]) ? row.value[i] : Number(word)));
+  const parse = () => (isList ? numbers() : element.value);
   element.addEventListener('change', () => {
     const value = parse();
     const wrong = isList && (value.length !== row.value.length || value.some(Number.isNaN));
-    if (wrong) element.value = text(row.value, type);
+    if (wrong) element.value = shown(row.value);
     else change(value);
   });
-  element.addEventListener('keydown', (event) => event.key === 'Escape' && ((element.value = text(row.value, type)), element.blur()));
+  element.addEventListener('keydown', (event) => event.key === 'Escape' && ((element.value = shown(row.value)), element.blur()));
   const show = (now) => {
-    if (document.activeElement !== element) element.value = text(now, type);
+    if (document.activeElement !== element) element.value = shown(now);
   };
   return { element, show };
 }

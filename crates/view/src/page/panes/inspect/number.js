@@ -1,5 +1,6 @@
 // Fields for numbers: typed, changed by the arrow keys, or by dragging their label. What keys or dragging do becomes one change at the end.
 import { el } from '../../dom.js';
+import { fitted, watchRoom } from './fit.js';
 import { shownUnit } from './units.js';
 
 const STEPS = { m: 0.01, '°': 1, rad: 0.01 };
@@ -16,7 +17,7 @@ export function decimal(x, unit = '') {
 export const withoutNoise = (x, unit) => (Math.abs(x) < 5e-5 ? (0).toFixed(unit.startsWith('°') ? 2 : 4) : decimal(x, unit));
 
 /** As short as it can be, where there is little room. */
-const short = (x, unit) => withoutNoise(x, unit).replace(/(\.\d*?)0+(?=e|$)/, '$1').replace(/\.(?=e|$)/, '');
+export const short = (x, unit) => withoutNoise(x, unit).replace(/(\.\d*?)0+(?=e|$)/, '$1').replace(/\.(?=e|$)/, '');
 
 /** How many steps at once: with Shift ten, with Alt a tenth. */
 const times = (event) => (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
@@ -24,14 +25,16 @@ const times = (event) => (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
 export class NumberField {
   /** @param {{label: string, value: number, unit?: string, integer?: boolean, form?: function(number, string): string, change: function(number): void}} how `value` and what `change` gets in the unit */
   constructor({ label, value, unit, integer = false, form = decimal, change }) {
-    Object.assign(this, { ...shownUnit(unit), integer, form, change, value, pending: null, edited: false });
+    Object.assign(this, { ...shownUnit(unit), integer, form, change, value, pending: null, edited: false, room: 0 });
     this.element = el('input', { type: 'text', class: 'value number', 'aria-label': label, spellcheck: 'false', inputmode: 'decimal' });
     const listen = (type, handler) => this.element.addEventListener(type, handler);
     listen('input', () => (this.edited = true));
     listen('change', () => this._typed());
     listen('keydown', (event) => this._key(event));
     listen('keyup', (event) => event.key.startsWith('Arrow') && this._commit());
-    listen('blur', () => this._commit());
+    listen('focus', () => this.show(this.value));
+    listen('blur', () => (this._commit(), this.show(this.value)));
+    watchRoom(this.element, (room) => ((this.room = room), this.show(this.value)));
     this.show(value);
   }
 
@@ -41,9 +44,15 @@ export class NumberField {
     if (!this.edited && this.pending === null) this._write(value);
   }
 
+  /** All figures while it is edited; otherwise as many as there is room for, and all of them in the title. */
   _write(value) {
+    const { element, unit } = this;
     const shown = value * this.factor;
-    this.element.value = this.integer ? String(value) : typeof value === 'number' ? this.form(shown, this.unit) : '–';
+    const full = this.integer ? String(value) : typeof value === 'number' ? this.form(shown, unit) : '–';
+    const text = document.activeElement === element ? full : fitted(full, shown, this.room);
+    if (element.value !== text) element.value = text;
+    const title = typeof value !== 'number' || Number(text) === shown ? '' : `${shown} ${unit}`.trim();
+    if (element.title !== title) element.title = title;
   }
 
   /** Back to what it is. */
