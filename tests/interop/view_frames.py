@@ -68,11 +68,12 @@ def the_axes_stay_free(browser):
 
 def frames_are_moved_folded_and_closed(browser, selector, name, by=(-150, 60)):
     before = box(browser, found(selector))
-    drag(browser, [before[0] + 20, before[1] + 12], by)
+    drag(browser, [before[0] + 40, before[1] + 12], by)
     after = box(browser, found(selector))
     same(f"{name} was dragged", [round(after[k] - before[k]) for k in (0, 1)], list(by))
     key(browser, "ArrowLeft")  # what was dragged has the focus
     browser.shows(f"{found(selector)}.getBoundingClientRect().left < {after[0]}", "it moves by keys")
+    same(f"{name}, what moves it", browser.evaluate("[document.activeElement.tagName, document.activeElement.getAttribute('aria-label')]"), ["BUTTON", f"Move {name}"])
     press(browser, f"{selector} .window-fold")
     browser.shows(f"{found(selector)}.getBoundingClientRect().height < 50", "it is folded")
     press(browser, f"{selector} .window-fold")

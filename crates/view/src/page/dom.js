@@ -52,6 +52,7 @@ const ICONS = {
   edit: 'M3 13l1-3.5L11 2.5l2.5 2.5L6.5 12zM9.5 4L12 6.5',
   close: 'M4 4l8 8M12 4l-8 8',
   fold: 'M4 6l4 4 4-4',
+  grip: 'M6 4v.01M10 4v.01M6 8v.01M10 8v.01M6 12v.01M10 12v.01',
   copy: 'M5.5 5.5h7v8h-7zM3.5 10.5v-8h7',
   curve: 'M2 13V3M2 13h12M4 10c2-6 4-6 5-3s3 2 4-3',
   follow: 'M8 2v3M8 11v3M2 8h3M11 8h3M8 5a3 3 0 1 0 0 6 3 3 0 0 0 0-6',

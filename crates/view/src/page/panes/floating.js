@@ -20,10 +20,11 @@ export class Floating {
     Object.assign(this, { layer, shelf, kind });
     this.title = el('h2', { id: `${kind}-${id}` });
     this.fold = iconButton('fold', 'Fold', () => this.setFolded(!this.folded, true), { class: 'icon-button window-fold' });
-    this.bar = el('header', { tabindex: 0, role: 'toolbar', title: 'Drag it, or move it with the arrow keys' }, this.title, this.fold, iconButton('close', 'Close', close ?? (() => this.putAway())));
+    this.grip = iconButton('grip', 'Move by dragging or with the arrow keys', null, { class: 'icon-button window-grip', 'aria-keyshortcuts': Object.keys(ARROWS).join(' ') });
+    this.bar = el('header', {}, this.grip, this.title, this.fold, iconButton('close', 'Close', close ?? (() => this.putAway())));
     this.element = el('section', { class: 'window', 'aria-labelledby': this.title.id, [`data-${kind}`]: id, ...members }, this.bar);
     this.bar.addEventListener('pointerdown', (event) => this._drag(event));
-    this.bar.addEventListener('keydown', (event) => this._move(event));
+    this.grip.addEventListener('keydown', (event) => this._move(event));
     this.element.addEventListener('pointerdown', () => this.raise());
     this.setFolded(false);
   }
@@ -33,7 +34,7 @@ export class Floating {
     setText(this.title, shown);
     if (this.name === shown) return;
     this.name = shown;
-    this.bar.setAttribute('aria-label', `${shown}, moved by the arrow keys`);
+    this.grip.setAttribute('aria-label', `Move ${shown}`);
   }
 
   /** Where it was left: two numbers, or none. */
@@ -59,7 +60,7 @@ export class Floating {
     this.shelf.put(this, this.name, () => {
       this.away = false;
       this.showAway();
-      this.bar.focus();
+      this.grip.focus();
     });
   }
 
@@ -96,7 +97,7 @@ export class Floating {
   }
 
   _drag(event) {
-    if (event.target.closest('button') || event.button !== 0) return;
+    if (event.target.closest('button:not(.window-grip)') || event.button !== 0) return;
     const [dx, dy] = [event.clientX - this.element.offsetLeft, event.clientY - this.element.offsetTop];
     this.bar.setPointerCapture(event.pointerId);
     const move = (at) => this.moveTo(at.clientX - dx, at.clientY - dy);
@@ -104,12 +105,13 @@ export class Floating {
     const ended = () => {
       this.bar.removeEventListener('pointermove', move);
       this._keep();
+      this.grip.focus(); // arrow keys go on
     };
     this.bar.addEventListener('lostpointercapture', ended, { once: true });
   }
 
   _move(event) {
-    const by = event.target === this.bar && ARROWS[event.key];
+    const by = ARROWS[event.key];
     if (!by) return;
     event.preventDefault();
     event.stopPropagation();

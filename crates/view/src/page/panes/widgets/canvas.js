@@ -93,7 +93,7 @@ function takeKeys(element, form) {
   const send = (event, down) => form.send({ type: 'stroke', down, key: numberOf(event), text: textOf(event), modifiers: modifiers(event) });
   element.addEventListener('keydown', (event) => {
     event.stopPropagation();
-    if (event.key === 'F6') element.closest('.window')?.querySelector('header')?.focus();
+    if (event.key === 'F6') element.closest('.window')?.querySelector('.window-grip')?.focus();
     if (event.metaKey || event.isComposing || /^F(5|6|11|12)$/.test(event.key)) return;
     event.preventDefault();
     send(event, true);
