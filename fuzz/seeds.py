@@ -8,7 +8,7 @@ Of unpacked_scene: the files of a model of tests/data, which is unpacked into fu
 Of mesh_* and gltf_asset: a square in each format.
 
 Of urdf, sdf and mjcf: the files in the tests. Of ros_message and ros2_message: the built-in types, with messages that fit some of them. Of rtps:
-how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of qml_message: a message of each kind. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
+how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of qml_message: a message of each kind. Of soft_text: a rope, a cloth and a volume. Of view_request: the requests in the tests. Of mcp_message: a request of each method.
 
 Of compressed_image: PNG files of four kinds and a JPEG file.
 """
@@ -262,6 +262,14 @@ def qml_message():
         write(f"qml_message/{number}", marshal.dumps(message, 2))
 
 
+def soft_text():
+    rope = "radius=0.01 lineDensity=0.1 stretch=1e4 bend=0.01 twist=0.02 damping=0.001 straight=1 self=1 points=0,0,0;0.1,0,0;0.2,0,0.1"
+    cloth = "radius=0.001 density=0.2 stretch=1000 bend=1e-5 poisson=0.3 flat=1 self=1 points=0,0,0;0.1,0,0;0.1,0.1,0;0,0.1,0 triangles=0,1,2;0,2,3"
+    volume = cloth.replace("triangles=0,1,2;0,2,3", "young=1e5 pressure=10 triangles=0,2,1;0,1,3;1,2,3;0,3,2 tetrahedra=0,1,2,3").replace("0,0.1,0 ", "0,0,0.1 ")
+    for name, lines in {"rope": [rope, "point=0 place=0,0,0 clamped=1", ""], "cloth": ["", "point=1 place=0.1,0,0", cloth], "volume": ["", "", volume]}.items():
+        write(f"soft_text/{name}", "\n".join(lines).encode())
+
+
 def view_request():
     text = (ROOT.parent / "crates" / "view" / "src" / "request" / "tests.rs").read_text()
     for number, request in enumerate(re.findall(r"\{\\?\"[^`\n]*?\}", text)):
@@ -294,7 +302,7 @@ def compressed_image():
     write("compressed_image/grey.jpg", base64.b64decode(jpeg))
 
 
-TARGETS = [compressed_image, scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, qml_message, view_request, mcp_message]
+TARGETS = [compressed_image, scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, qml_message, soft_text, view_request, mcp_message]
 for make in TARGETS:
     if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
         make()
