@@ -234,7 +234,8 @@ impl Dynamics {
             return;
         }
         let world = self.world.get_or_insert_with(Box::default);
-        let plan = Plan::new(scene, &self.frozen, &self.soft_bodies);
+        let known = |shape: Handle, text: &str| self.soft_bodies.known(shape, text);
+        let plan = Plan::new(scene, &self.frozen, &known);
         self.far = plan.far;
         self.bodies
             .apply_plan(plan.bodies, world, scene, &mut self.forms);

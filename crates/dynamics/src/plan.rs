@@ -12,7 +12,6 @@ use articulation::JointKind;
 use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
-use crate::soft_bodies::SoftBodies;
 use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
@@ -40,6 +39,9 @@ pub(super) struct Plan {
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
 }
+
+/// What a text says of a soft shape, if that is known.
+pub(super) type KnownSoft<'a> = dyn Fn(Handle, &str) -> Option<Rc<Soft>> + 'a;
 
 /// A rope, cloth or volume.
 pub(super) struct SoftPlan {
@@ -170,7 +172,7 @@ impl LinkKind {
 
 impl Plan {
     /// `known`: what is soft and known already.
-    pub(super) fn new(scene: &Scene, frozen: &Frozen, known: &SoftBodies) -> Self {
+    pub(super) fn new(scene: &Scene, frozen: &Frozen, known: &KnownSoft) -> Self {
         let order = scene.all_breadth_first();
         let far: Vec<_> = order
             .iter()
@@ -262,7 +264,7 @@ fn among(scene: &Scene, object: &Object, mut surface: Surface) -> Surface {
 }
 
 /// A shape that bends: one that is not static, and says what it is.
-fn soft(scene: &Scene, handle: Handle, known: &SoftBodies) -> Option<SoftPlan> {
+fn soft(scene: &Scene, handle: Handle, known: &KnownSoft) -> Option<SoftPlan> {
     let object = scene.object(handle).ok()?;
     let shape = object.shape().ok()?;
     let flags = scene.calculated_model_property(handle);
@@ -270,9 +272,7 @@ fn soft(scene: &Scene, handle: Handle, known: &SoftBodies) -> Option<SoftPlan> {
         return None;
     }
     let text = object.soft_text()?;
-    let soft = known
-        .known(handle, &text)
-        .or_else(|| object.soft().map(Rc::new))?;
+    let soft = known(handle, &text).or_else(|| object.soft().map(Rc::new))?;
     let mut surface = surface(scene, handle, shape);
     if !shape.dynamics.respondable || flags.contains(ModelFlags::NOT_RESPONDABLE) {
         (surface.mask, surface.further_bits) = (0, 0);

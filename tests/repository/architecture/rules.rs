@@ -126,6 +126,10 @@ const DYNAMICS: Rooms = &[
     ("adhesion", &["bodies", "contacts", "near", "world"]),
     ("tendons", &["bodies", "convert", "plan", "world"]),
     (
+        "sub_step",
+        &["adhesion", "contacts", "convert", "soft_bodies", "world"],
+    ),
+    (
         "report",
         &["bodies", "convert", "links", "load", "plan", "world"],
     ),
