@@ -1,4 +1,4 @@
-//! Adhesion: bodies that cling to what they touch, as MuJoCo's actuators of that name.
+//! Adhesion: bodies that adhere to what they touch, as MuJoCo's actuators of that name.
 //!
 //! The force is shared by the points where the body is within a millimetre of something; it pulls both sides together there, and the contacts bear it.
 
@@ -12,10 +12,10 @@ use super::bodies::{Bodies, Body, Tag};
 use super::contacts::{ContactResponse, Verdicts};
 use super::world::World;
 
-/// How near a surface is that a body clings to, metres.
+/// How near a surface is that a body adheres to, metres.
 const REACH: f64 = 1e-3;
 
-/// A point where a body clings to another one.
+/// A point where a body adheres to another one.
 struct Place {
     other: Option<RigidBodyHandle>,
     point: Vector,
@@ -23,9 +23,9 @@ struct Place {
     towards: Vector,
 }
 
-/// Pulls bodies that cling, and what they cling to. Whether there are any.
+/// Pulls bodies that adhere, and what they adhere to. Whether there are any.
 pub(super) fn pull(bodies: &Bodies, world: &mut World, verdicts: &Verdicts) -> bool {
-    if !bodies.are_clinging {
+    if !bodies.are_adhering {
         return false;
     }
     let mut have_pulled = false;

@@ -91,8 +91,8 @@ pub struct Dynamics {
     mechanisms: Mechanisms,
     soft_bodies: SoftBodies,
     particles: Particles,
-    /// Whether bodies that cling have been pulled in this sub-step.
-    have_clung: bool,
+    /// Whether bodies that adhere have been pulled in this sub-step.
+    have_adhered: bool,
     tendons: Tendons,
     /// For which the plan was made.
     surrounding: Surrounding,

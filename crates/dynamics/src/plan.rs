@@ -117,7 +117,7 @@ pub(super) struct Surface {
     pub fluid: Option<Fluid>,
     /// Part of its weight by which it is lifted.
     pub gravity_compensation: f64,
-    /// Force with which it clings to what it touches, N.
+    /// Force with which it adheres to what it touches, N.
     pub adhesion: f64,
     /// How the surface of a static body moves, in the frame of its shape.
     pub motion: Option<MovingSurface>,

@@ -65,7 +65,7 @@ impl Dynamics {
         // Nobody else can have changed the forces since the first sub-step.
         let was_pushed = self.soft_bodies.have_pushed
             || self.particles.have_pushed
-            || self.have_clung
+            || self.have_adhered
             || self.tendons.have_pulled;
         let is_pushed = self.bodies.are_in_fluid || was_pushed;
         if sub_step == 1 || script_access.possible || is_pushed {
@@ -75,7 +75,7 @@ impl Dynamics {
         self.particles.push(&mut world, call.step);
         self.tendons
             .pull(&self.bodies, &mut world, gravity, call.step);
-        self.have_clung = adhesion::pull(&self.bodies, &mut world, &verdicts);
+        self.have_adhered = adhesion::pull(&self.bodies, &mut world, &verdicts);
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
@@ -86,7 +86,7 @@ impl Dynamics {
             && !script_access.possible
             && self.soft_bodies.is_empty()
             && scene.drawings().particles().is_empty()
-            && !self.bodies.are_clinging
+            && !self.bodies.are_adhering
             && self.mechanisms.know_surroundings(&mut world);
         if !is_known {
             contacts::set_hooks(&mut world, &verdicts, &apart);

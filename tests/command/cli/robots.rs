@@ -241,9 +241,9 @@ function sysCall_afterSimulation() print(string.format('down at %.4f', down)) en
     }
 }
 
-/// A box that clings to the ceiling until it is told not to, a ball of whose weight half is compensated, and a box that a belt carries; with Bullet as the engine, and from a model file too.
+/// A box that adheres to the ceiling until it is told not to, a ball of whose weight half is compensated, and a box that a belt carries; with Bullet as the engine, and from a model file too.
 #[test]
-fn bodies_of_mjcf_cling_float_and_are_carried() {
+fn bodies_of_mjcf_adhere_float_and_are_carried() {
     const BODIES: &str = r#"<mujoco><worldbody>
         <body name="ceiling" pos="0 0 2"><geom type="box" size="1 1 .1"/></body>
         <body name="hung" pos="0 0 1.8"><freejoint/><geom type="box" size=".1 .1 .1" mass="1"/></body>

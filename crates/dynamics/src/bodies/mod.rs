@@ -48,8 +48,8 @@ pub(super) struct Bodies {
     pub are_in_fluid: bool,
     /// Velocity of the fluid, m/s.
     pub wind: [f64; 3],
-    /// Whether one clings to what it touches.
-    pub are_clinging: bool,
+    /// Whether one adheres to what it touches.
+    pub are_adhering: bool,
 }
 
 /// A shape's body in the engine.
@@ -112,7 +112,7 @@ impl Bodies {
             .map(|(place, (shape, _))| (*shape, place))
             .collect();
         self.are_in_fluid = plan.iter().any(|(_, plan)| plan.surface.fluid.is_some());
-        self.are_clinging = plan.iter().any(|(_, plan)| plan.surface.adhesion > 0.0);
+        self.are_adhering = plan.iter().any(|(_, plan)| plan.surface.adhesion > 0.0);
         let stay = staying(&plan, &old, world, scene);
         let made = plan.iter().zip(&stay).filter(|(_, stays)| !**stays);
         make_forms(made.map(|((_, plan), _)| &plan.build), forms);
@@ -315,7 +315,7 @@ impl Body {
         self.build.dynamic && self.build.respondable && collides
     }
 
-    /// Force with which it clings to what it touches, N.
+    /// Force with which it adheres to what it touches, N.
     pub(super) fn adhesion(&self) -> f64 {
         self.surface.adhesion
     }

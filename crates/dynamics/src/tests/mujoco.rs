@@ -29,7 +29,7 @@ fn set(bench: &mut Bench, shape: Handle, values: &[(&'static str, Data)]) {
     });
 }
 
-fn clings(force: f64) -> [(&'static str, Data); 3] {
+fn adheres(force: f64) -> [(&'static str, Data); 3] {
     [
         ("mujoco.adhesion", Data::Bool(true)),
         ("mujoco.adhesiongain", Data::Float(force / 2.0)),
@@ -101,12 +101,12 @@ fn bodies_fall_in_the_fluid_of_the_scene() {
 
 /// A box of 1 kg under a ceiling: it hangs where the adhesion is stronger than its weight, and falls where it is not.
 #[test]
-fn what_clings_hangs_under_a_ceiling() {
+fn what_adheres_hangs_under_a_ceiling() {
     for (force, hangs) in [(20.0, true), (5.0, false), (9.0, false), (10.5, true)] {
         let mut bench = mujoco();
         bench.shape([1.0, 1.0, 0.1], [0.0, 0.0, 1.05], 1.0, false, true);
         let body = bench.shape([0.1; 3], [0.0, 0.0, 0.95], 1.0, true, true);
-        set(&mut bench, body, &clings(force));
+        set(&mut bench, body, &adheres(force));
         bench.run(20);
         assert_eq!(bench.height(body) > 0.949, hangs, "{force}");
         set(
@@ -121,7 +121,7 @@ fn what_clings_hangs_under_a_ceiling() {
 
 /// On a wall friction mu bears up to mu times the adhesion.
 #[test]
-fn friction_holds_what_clings_to_a_wall() {
+fn friction_holds_what_adheres_to_a_wall() {
     for (force, holds) in [(25.0, true), (15.0, false)] {
         let mut bench = mujoco();
         let wall = bench.shape([0.1, 1.0, 4.0], [-0.05, 0.0, 0.0], 1.0, false, true);
@@ -129,7 +129,7 @@ fn friction_holds_what_clings_to_a_wall() {
         for shape in [wall, body] {
             bench.change(shape, |shape| shape.material = Material::of_friction(0.5));
         }
-        set(&mut bench, body, &clings(force));
+        set(&mut bench, body, &adheres(force));
         bench.run(20);
         // Else it slides with g - mu F / m.
         let slides = if holds {
@@ -148,7 +148,7 @@ fn the_contact_bears_the_adhesion() {
     let mut bench = mujoco();
     bench.floor();
     let body = bench.shape([0.1; 3], [0.0, 0.0, 0.05], 1.0, true, true);
-    set(&mut bench, body, &clings(30.0));
+    set(&mut bench, body, &adheres(30.0));
     bench.run(20);
     let contacts = bench.dynamics.contacts();
     let force: f64 = contacts

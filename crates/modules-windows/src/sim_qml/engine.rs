@@ -32,7 +32,7 @@ pub(super) struct Engine {
     process: RefCell<Option<Process>>,
     /// The windows of scripts that show its windows, by the numbers of those.
     windows: RefCell<BTreeMap<i64, String>>,
-    /// Why the process is told nothing any more.
+    /// Why nothing is sent to the process any more.
     failure: RefCell<Option<String>>,
     events: RefCell<VecDeque<(String, Vec<u8>)>>,
     questions: Cell<i64>,
@@ -65,8 +65,8 @@ impl Engine {
         found.map(|(number, _)| *number)
     }
 
-    /// Tells the process something. That it has ended is said when it is listened to, and after that it is told nothing any more.
-    pub(super) fn tell(&self, kind: &str, fields: &[Data]) {
+    /// Sends the process a message. That it has ended is said when its messages are read, and nothing is sent after that.
+    pub(super) fn send(&self, kind: &str, fields: &[Data]) {
         if self.failure.borrow().is_some() {
             return;
         }
@@ -84,7 +84,7 @@ impl Engine {
     pub(super) fn ask(&self, cx: &Cx, kind: &str, fields: &[Data]) -> Result<Data, String> {
         let number = self.questions.get() + 1;
         self.questions.set(number);
-        self.tell(kind, &[&[Data::Int(number)], fields].concat());
+        self.send(kind, &[&[Data::Int(number)], fields].concat());
         self.wait(cx, |message| match message {
             Message::Answer(of, value) if of == number => Ok(Ok(value)),
             Message::Refused(of, why) if of == number => Ok(Err(why)),
@@ -220,16 +220,16 @@ impl Engine {
         }
     }
 
-    /// Tells the process what persons have done with its windows, and that pictures are wanted.
-    pub(super) fn tell_inputs(&self, is_seen: bool) {
+    /// Sends the process what persons have done with its windows, and that pictures are wanted.
+    pub(super) fn send_inputs(&self, is_seen: bool) {
         let windows = self.windows.borrow().clone();
         for (number, window) in windows {
             let inputs = self.ui.borrow_mut().take_canvas_inputs(&window);
             for input in inputs {
-                self.tell("tell", &told(number, input));
+                self.send("input", &input_fields(number, input));
             }
             if is_seen {
-                self.tell("tell", &[Data::Int(number), Data::text("want")]);
+                self.send("input", &[Data::Int(number), Data::text("want")]);
             }
         }
     }
@@ -279,8 +279,8 @@ fn verbosity_of(level: Level) -> i64 {
     }
 }
 
-/// An input of a person, as the process is told.
-fn told(number: i64, input: CanvasInput) -> Vec<Data> {
+/// The fields of an input, as they are sent to the process.
+fn input_fields(number: i64, input: CanvasInput) -> Vec<Data> {
     let flags = |modifiers: ui::Modifiers| {
         [modifiers.shift, modifiers.control, modifiers.alt].map(Data::Bool)
     };

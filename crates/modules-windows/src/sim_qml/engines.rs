@@ -86,7 +86,7 @@ impl Engines {
     ) -> Result<i64, NotLoaded> {
         let process = self.start(cx).map_err(NotLoaded::Lacking)?;
         let engine = Engine::new(cx, handle, handler, process);
-        engine.tell("load", &[source, name]);
+        engine.send("load", &[source, name]);
         let loaded = engine.wait(cx, |message| match message {
             Message::Loaded => Ok(Ok(())),
             Message::Failed(why) => Ok(Err(why)),
@@ -140,7 +140,7 @@ fn own(cx: &Cx, engines: Rc<Engines>, number: i64) {
     });
 }
 
-/// Tells the processes what persons did, does what they say, and calls the handlers of scripts for their events.
+/// Sends the processes what persons did, does what they say, and calls the handlers of scripts for their events.
 pub(super) fn start_of_iteration(host: &Host) {
     let engines = host.module_state::<Engines>();
     let engines = engines.map_or_else(Vec::new, |engines| engines.all());
@@ -152,7 +152,7 @@ pub(super) fn start_of_iteration(host: &Host) {
         let is_seen = first.is_seen();
         engines
             .iter()
-            .for_each(|(_, engine)| engine.tell_inputs(is_seen));
+            .for_each(|(_, engine)| engine.send_inputs(is_seen));
     }
     let arrived = tape.poll("messages of QML", 0, || arrivals(&engines));
     for (number, arrival) in arrived.into_iter().flatten() {

@@ -7,10 +7,10 @@ use crate::Cx;
 
 type Outcome<T> = Result<T, String>;
 
-/// Lets all interfaces do what they have been told before, so that it can be seen.
+/// Lets all interfaces do what was sent to them before, so that it can be seen.
 pub fn catch_up(cx: &Cx) {
     for (_, engine) in cx.module_state::<Engines>().all() {
-        engine.tell_inputs(false);
+        engine.send_inputs(false);
         // One that has ended has nothing to do any more.
         let _ = engine.ask(cx, "rest", &[Data::Int(0)]);
     }
@@ -90,7 +90,7 @@ fn deliver(cx: &Cx, window: &str) {
 fn ask(cx: &Cx, window: &str, kind: &str, fields: &[Data]) -> Outcome<Data> {
     let found = cx.module_state::<Engines>().of_window(window);
     let (engine, number) = found.ok_or("the window is gone")?;
-    engine.tell_inputs(false);
+    engine.send_inputs(false);
     engine.ask(cx, kind, &[&[Data::Int(number)], fields].concat())
 }
 

@@ -60,7 +60,7 @@ fn stop(cx: &mut Cx, number: i64) -> Result<()> {
 fn send(cx: &mut Cx, number: i64, name: String, text: Bytes) -> Result<()> {
     if let Some(engine) = cx.module_state::<Engines>().get(number) {
         let text = String::from_utf8_lossy(&text.0);
-        engine.tell("event", &[Data::text(&name), Data::text(&text)]);
+        engine.send("event", &[Data::text(&name), Data::text(&text)]);
     }
     Ok(())
 }

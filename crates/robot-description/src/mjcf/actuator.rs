@@ -53,7 +53,7 @@ fn actuator(
     let told = range("ctrllimited", "ctrlrange")
         .or_else(|| inherited_range(attributes, &robot.joints[joint].limits, report));
     let drive = law.drive(gear);
-    // What a motor is told is a force.
+    // The control of a motor is a force.
     let control = told.map(|told| scaled(told, law.of_joint(drive, gear)));
     let of_control = control.filter(|_| drive == Drive::Force);
     let effort = [
@@ -88,7 +88,7 @@ fn inherited_range(
     (factor > 0.0).then_some([middle - half, middle + half])
 }
 
-/// The force of an actuator: `gain` times what it is told, and `bias`: a constant, per length and per speed.
+/// The force of an actuator: `gain` times its control, and `bias`: a constant, per length and per speed.
 struct Law {
     gain: f64,
     bias: [f64; 3],
@@ -135,7 +135,7 @@ impl Law {
         if !matches!(attributes.get("dyntype"), None | Some("none")) {
             report.leave_out(
                 attributes.element,
-                "dyntype is not read: it acts at once on what it is told",
+                "dyntype is not read: it acts at once on its control",
             );
         }
         let is_affine = attributes.get("biastype") == Some("affine");
@@ -158,7 +158,7 @@ impl Law {
         }
     }
 
-    /// Force, position or speed of the joint per unit of what it is told.
+    /// Force, position or speed of the joint per unit of its control.
     fn of_joint(&self, drive: Drive, gear: f64) -> f64 {
         let force = self.gain * gear;
         match drive {

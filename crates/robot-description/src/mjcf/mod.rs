@@ -46,7 +46,7 @@ pub struct Model {
     pub fixed: Vec<usize>,
     /// The motors.
     pub actuators: Vec<Actuator>,
-    /// What lets bodies cling to what they touch.
+    /// What lets bodies adhere to what they touch.
     pub adhesions: Vec<Adhesion>,
     /// Links of whose weight a part is compensated, and which part.
     pub compensations: Vec<(usize, f64)>,
@@ -77,22 +77,22 @@ pub struct Actuator {
     pub bias: f64,
     /// Lowest and highest force or torque on the joint, if it has them, N or N m.
     pub range: Option<[f64; 2]>,
-    /// Lowest and highest position or speed of the joint that it can be told, if it has them.
+    /// Lowest and highest position or speed of the joint of its control, if it has them.
     pub control: Option<[f64; 2]>,
     /// Its line in the file, from 1.
     pub line: u32,
 }
 
-/// What lets a body cling to what it touches: with the gain times what it is told.
+/// What lets a body adhere to what it touches: with the gain times its control.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adhesion {
     /// Its name.
     pub name: String,
     /// The index of the link.
     pub link: usize,
-    /// Newtons per what it is told.
+    /// Newtons per unit of its control.
     pub gain: f64,
-    /// Lowest and highest that it can be told, if it has them.
+    /// Lowest and highest control, if it has them.
     pub control: Option<[f64; 2]>,
     /// Lowest and highest force, if it has them, N.
     pub force: Option<[f64; 2]>,

@@ -56,7 +56,7 @@ fn of_link([x, y, z, a, b, c]: [f64; 6], pose: &Pose) -> [f64; 6] {
     ]
 }
 
-/// The actuators that let bodies cling to what they touch.
+/// The actuators that let bodies adhere to what they touch.
 pub fn adhesions(
     root: &Element,
     document: &Document,

@@ -490,7 +490,7 @@ fn actuators_inherit_the_range_of_their_joint() {
 }
 
 #[test]
-fn bodies_cling_float_and_have_belts() {
+fn bodies_adhere_float_and_have_belts() {
     let text = "<mujoco><worldbody>
         <geom name='floor' type='plane' size='5 5 1'/>
         <body name='belt' pos='1 0 0'><geom type='box' size='1 1 1' pos='0 2 0' euler='0 0 90' surfacevel='.5 0 0 0 0 1'/></body>

@@ -36,7 +36,7 @@ pub struct Passive {
     pub friction: f64,
 }
 
-/// A motor as MuJoCo has it: its force is what it is told, or a spring and damper about what it is told, within a range.
+/// A motor as MuJoCo has it: its force is its control, or a spring and damper about its control, within a range.
 ///
 /// As text: the kind, then numbers, `position stiffness=100 damping=5 bias=0 lowest=-20 highest=20`; what is not there is 0, a range that is not there has no end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +102,7 @@ impl ActuatorKind {
         (Self::Velocity, "velocity"),
     ];
 
-    /// The control of the joint in which it is told something.
+    /// The control mode of the joint in which it has a control.
     pub fn control(self) -> Control {
         match self {
             Self::None => Control::Free,

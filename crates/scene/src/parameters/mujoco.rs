@@ -86,7 +86,7 @@ impl Material {
         number(&self.engine_values, "mujoco.gravcomp", 0).unwrap_or(0.0)
     }
 
-    /// Force with which a body clings to what it touches, N; 0 without.
+    /// Force with which a body adheres to what it touches, N; 0 without.
     pub fn adhesion(&self) -> f64 {
         let values = &self.engine_values;
         if values.get("mujoco.adhesion") != Some(&Data::Bool(true)) {

@@ -59,7 +59,7 @@ class Interface:
         self.windows = Windows(link)
         self.items = Items(self.windows)
         self.handlers = {
-            'load': self._load, 'event': self.pipe.received.emit, 'tell': self.windows.tell, 'find': self._answer(self.items.find),
+            'load': self._load, 'event': self.pipe.received.emit, 'input': self.windows.input, 'find': self._answer(self.items.find),
             'state': self._answer(self.items.state), 'act': self._answer(self.items.act), 'rest': self._answer(self.items.rest),
         }
 
@@ -80,7 +80,7 @@ class Interface:
         self.windows.look()
 
     def _answer(self, do):
-        """A question with a number, which its answer has as well. Windows that have come meanwhile are told before."""
+        """A question with a number, which its answer has as well. Windows that have come meanwhile are sent before."""
         def ask(number, *args):
             try:
                 answer = do(*args)

@@ -141,7 +141,7 @@ class Windows(QObject):
                 self.known[self.last] = Window(self.link, self.last, window)
                 window.requestActivate()
 
-    def tell(self, number, what, *args):
+    def input(self, number, what, *args):
         """What the simulator says about a window; one that is gone needs nothing."""
         one = self.known.get(number)
         if one is not None and isValid(one.window):
