@@ -414,9 +414,9 @@ fn temporal_properties_that_hold_are_silent() {
     }
 }
 
-/// The generators and the faults have tests of their own, in Lua.
+/// The generators, the faults and simMujoco have tests of their own, in Lua.
 #[test]
-fn generators_and_faults_do_what_they_say() {
+fn what_has_tests_in_lua_passes_them() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lua");
     let folder = tempfile::tempdir().expect("a folder");
     let (code, text) = swanilda(folder.path(), &["test", &tests.to_string_lossy()]);

@@ -19,7 +19,7 @@ SYMBOLS = pathlib.Path(sys.argv[1]).parent / ("symbols_41.tsv" if IS_OLD else "s
 
 # Which of them accept a handle, a number or an address that means nothing, because it is ignored or there may be any.
 TOLERANT = set("""
-_simGetTimeDiffInMs simAddParticleObject simAddStatusbarMessage simAuxiliaryConsoleClose simAuxiliaryConsolePrint simAuxiliaryConsoleShow
+_simGetTimeDiffInMs simAddStatusbarMessage simAuxiliaryConsoleClose simAuxiliaryConsolePrint simAuxiliaryConsoleShow
 simBuildIdentityMatrix simBuildIdentityMatrix_D simCameraFitToView simCameraFitToView_D simClearDoubleSignal simClearFloatSignal simClearInt32Signal
 simClearIntegerSignal simClearStringSignal simCreateBuffer simCreateCollection simCreateCollectionEx simCreateDummy simCreateDummy_D simCreateIkGroup
 simCreateOctree simCreateOctree_D simCreatePath simCreatePointCloud simCreatePointCloud_D simCreateVisionSensor simCreateVisionSensor_D simEndDialog
