@@ -108,6 +108,8 @@ fn a_body_is_what_its_text_says() {
     let volume = Body {
         young: 1e5,
         pressure: Some(-20.5),
+        points: vec![[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]],
+        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
         tetrahedra: vec![[0, 1, 2, 3]],
         touches_itself: true,
         ..cloth()
