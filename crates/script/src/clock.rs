@@ -169,6 +169,12 @@ impl Clock {
         }
     }
 
+    /// The run goes on where a pause was asked for that has not come yet.
+    pub(crate) fn cancel_pause(&self) {
+        self.pause_requested.set(false);
+        self.cancel_begun_pause();
+    }
+
     /// Refused when not running or when a stop is requested.
     pub(crate) fn request_pause(&self) {
         if self.state().is_advancing() && !self.stop_requested.get() {

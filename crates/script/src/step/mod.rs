@@ -223,9 +223,10 @@ impl Sim {
         self.clock.pause_after(steps);
     }
 
-    /// Starts or resumes the simulation for as long as it lasts.
+    /// Starts or resumes the simulation for as long as it lasts, also where a pause was asked for that has not come yet.
     pub fn play(self: &Rc<Self>) {
         self.clock.cancel_pause_after();
+        self.clock.cancel_pause();
         self.start();
     }
 

@@ -340,6 +340,14 @@ mod tests {
             sim.iterate();
         }
         assert_eq!((sim.steps(), sim.state()), (9, State::Running));
+        // A pause that has not come yet, or has begun, gives way to what is asked for after it.
+        for steps in 0..2 {
+            done(&mut sim, &Action::Pause).unwrap();
+            (0..steps).for_each(|_| sim.iterate());
+            done(&mut sim, &Action::Play).unwrap();
+            (0..4).for_each(|_| sim.iterate());
+            assert_eq!(sim.state(), State::Running);
+        }
         done(&mut sim, &Action::Stop).unwrap();
         for _ in 0..5 {
             sim.iterate();
