@@ -381,6 +381,24 @@ fn slow_pages_and_those_that_go_hold_up_nobody() {
     );
 }
 
+/// Numbers of a simulation that stands do not change: who asks for what is followed already gets them all the same.
+#[test]
+fn whoever_asks_for_numbers_gets_them() {
+    let served = Served::start(SCRIPT, &["--paused"]);
+    let mut pages = [Page::open(&served), Page::open(&served)];
+    let items = json!([{"handle": -12, "name": "timeStep"}]);
+    for (page, key) in [(0, 1), (0, 2), (1, 3), (0, 4)] {
+        let page = &mut pages[page];
+        page.ask(json!({"do": "sample", "key": key, "items": items}))
+            .expect("numbers can be followed");
+        let samples = page.wait_for(|text| text["type"] == "samples" && text["key"] == key);
+        assert_eq!(
+            samples["values"][0].as_array().unwrap().last(),
+            Some(&json!(0.05))
+        );
+    }
+}
+
 #[test]
 fn pages_are_told_of_the_end() {
     let mut served = Served::start(SCRIPT, &[]);

@@ -62,8 +62,17 @@ pub(crate) struct Shared {
 pub(crate) struct Demand {
     pages: BTreeMap<PageId, PageDemand>,
     opened: PageId,
-    /// What any page follows, sorted; nothing if there is nothing.
-    followed: Option<Arc<[Followed]>>,
+    /// What any page follows.
+    asked: Asked,
+}
+
+/// The numbers that pages have asked for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Asked {
+    /// How often they have.
+    times: u64,
+    /// All that they follow, sorted; nothing if there is nothing.
+    pub items: Option<Arc<[Followed]>>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -81,7 +90,7 @@ impl Demand {
             .values()
             .flat_map(|page| &page.followed)
             .collect();
-        self.followed = (!all.is_empty()).then(|| all.into_iter().cloned().collect());
+        self.asked.items = (!all.is_empty()).then(|| all.into_iter().cloned().collect());
     }
 }
 
@@ -173,9 +182,9 @@ impl Shared {
         (all, inspected)
     }
 
-    /// The numbers that pages follow, if they follow any.
-    pub(crate) fn followed(&self) -> Option<Arc<[Followed]>> {
-        lock(&self.demand).followed.clone()
+    /// The numbers that pages follow.
+    pub(crate) fn asked(&self) -> Asked {
+        lock(&self.demand).asked.clone()
     }
 
     pub(crate) fn samples(&self) -> MutexGuard<'_, Samples> {
@@ -314,6 +323,12 @@ impl Shared {
             change(wanted);
             demand.gather_followed();
         }
+    }
+
+    /// A page follows these numbers from now on. It gets them once in any case, also where they were followed before and do not change.
+    fn follow(&self, page: PageId, followed: Vec<Followed>) {
+        lock(&self.demand).asked.times += 1;
+        self.change_demand(page, |demand| demand.followed = followed);
     }
 
     fn remove_page(&self, page: PageId) {

@@ -84,9 +84,7 @@ impl Page {
             Action::Sample(following) => {
                 // Before the simulation knows of it, so that no step is missed.
                 self.following = (following.clone(), self.shared.samples().taken());
-                let followed = following.items.clone();
-                self.shared
-                    .change_demand(self.id, |demand| demand.followed = followed);
+                self.shared.follow(self.id, following.items.clone());
             }
             Action::Inspect(handle) => {
                 let now = self.shared.mirror().revision();

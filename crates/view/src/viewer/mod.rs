@@ -19,8 +19,7 @@ use crate::perform::{perform, rows};
 use crate::question::ask;
 use crate::recording::Recording;
 use crate::request::Action;
-use crate::sample::Followed;
-use crate::server::{RecordedSite, Shared, ViewSite};
+use crate::server::{Asked, RecordedSite, Shared, ViewSite};
 use ::io::SiteServer;
 use serde_json::Value;
 use simulator::Simulator;
@@ -85,7 +84,7 @@ pub struct Viewer {
 #[derive(Default)]
 struct Sampled {
     moment: Option<(u64, u64)>,
-    followed: Option<Arc<[Followed]>>,
+    asked: Asked,
     /// Pages do not have them yet.
     is_new: bool,
 }
@@ -226,28 +225,26 @@ impl Viewer {
 
     /// Reads the numbers that pages follow, once for each step, and at once when they are others.
     pub(crate) fn sample(&mut self, sim: &Simulator) {
-        let followed = self.shared.followed();
+        let asked = self.shared.asked();
         let moment = Some((sim.steps(), sim.time().to_bits()));
-        if self.sampled.followed == followed
-            && (followed.is_none() || self.sampled.moment == moment)
-        {
+        let is_followed = asked.items.is_some();
+        if self.sampled.asked == asked && (!is_followed || self.sampled.moment == moment) {
             return self.sample_again(sim);
         }
-        match &followed {
+        match &asked.items {
             Some(items) => self.shared.samples().take(sim, items),
             None => self.shared.samples().forget(),
         }
-        let is_new = followed.is_some();
         self.sampled = Sampled {
             moment,
-            followed,
-            is_new,
+            asked,
+            is_new: is_followed,
         };
     }
 
     /// The same now and then while there are no steps.
     fn sample_again(&mut self, sim: &Simulator) {
-        if self.sampled.followed.is_some() && self.samples.is_due(wall_clock::now(), VALUES) {
+        if self.sampled.asked.items.is_some() && self.samples.is_due(wall_clock::now(), VALUES) {
             self.sampled.is_new |= self.shared.samples().take_again(sim);
         }
     }

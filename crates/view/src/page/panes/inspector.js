@@ -28,6 +28,7 @@ export class InspectorPane {
   constructor(pane, page) {
     Object.assign(this, { page, store: page.store });
     this.handle = null;
+    this.asking = null; // the answer that is awaited
     this.rows = new Map();
     this.folded = new Map();
     this.title = el('h2', { class: 'inspected' });
@@ -52,12 +53,15 @@ export class InspectorPane {
     if (!['open'].includes(this.store.connection.state)) return;
     const handle = this.store.selection.at(-1) ?? -12;
     const writable = this.page.canWrite; // a capture goes on live: from then on
-    if (handle === this.handle && this.rows.size && writable === this.writable) return;
+    if (handle === this.handle && (this.rows.size || this.asking) && writable === this.writable) return;
     Object.assign(this, { handle, writable, head: null });
     this._head();
     this._watch();
-    const rows = await this.page.source.request('inspect', { handle }).catch((error) => this._fail(error));
-    if (handle === this.handle && rows) this._show(rows);
+    const asking = (this.asking = this.page.source.request('inspect', { handle }));
+    const answer = await asking.then((rows) => () => rows && this._show(rows), (error) => () => this._fail(error));
+    if (asking !== this.asking) return; // something else was selected meanwhile
+    this.asking = null;
+    answer();
   }
 
   _fail(error) {

@@ -35,9 +35,10 @@ class JointRow {
     return this.object.jointType === 'prismatic' ? 'm' : 'rad';
   }
 
-  /** What the slider is for: a property. */
+  /** What the slider is for: a property; nothing while it is not known yet what drives the joint. */
   get _driven() {
     const { jointMode, dynCtrlMode } = this.state;
+    if (jointMode === undefined) return null;
     const runs = this.pane.page.store.scene.state !== 'stopped';
     if (jointMode !== DYNAMIC) return 'jointPosition';
     if (dynCtrlMode === POSITION || dynCtrlMode === SPRING) return 'targetPos';
