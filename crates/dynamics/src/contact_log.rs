@@ -45,6 +45,17 @@ impl Contact {
     }
 }
 
+/// A point at which something soft touches something. World axes.
+pub(super) struct SoftTouch {
+    /// What is soft comes first.
+    pub shapes: [Handle; 2],
+    pub place: Vector,
+    /// Points to the first shape.
+    pub normal: Vector,
+    /// On the first shape, N s.
+    pub impulse: Vector,
+}
+
 /// The contacts of the sub-steps of one call.
 #[derive(Default)]
 pub(super) struct ContactLog {
@@ -118,8 +129,14 @@ impl ContactLog {
         self.resting.awake = None;
     }
 
-    /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
-    pub(super) fn add_sub_step(&mut self, world: &World, ground: &ExactContacts, step: f64) {
+    /// Adds the contacts of the sub-step of `step` seconds the engine has just made, and those of what is soft.
+    pub(super) fn add_sub_step(
+        &mut self,
+        world: &World,
+        ground: &ExactContacts,
+        soft: &[SoftTouch],
+        step: f64,
+    ) {
         self.resting.follow(world, ground, step);
         let first = self.awake.touches.len();
         self.awake.step = step;
@@ -130,6 +147,11 @@ impl ContactLog {
         let awake = ground.points().iter();
         self.awake
             .add_points(awake.filter(|point| self.resting.is_awake(point.colliders) == Some(true)));
+        for touch in soft {
+            let (normal, impulse) = (touch.normal, touch.impulse);
+            self.awake
+                .add_touch(touch.shapes, touch.place, normal, impulse);
+        }
         let touches = first..self.awake.touches.len();
         self.sub_steps.push(SubStepContacts {
             touches,
@@ -243,23 +265,27 @@ impl Batch {
     /// Adds the contacts that mechanisms solve.
     fn add_points<'a>(&mut self, points: impl Iterator<Item = &'a Point>) {
         for point in points {
-            let impulse = point.impulse.dot(point.normal);
-            if impulse == 0.0 || !point.impulse.is_finite() {
-                continue;
-            }
-            let friction = point.impulse - point.normal * impulse;
-            let first = self.points.len();
-            self.points.push(TouchPoint {
-                place: point.place(),
-                impulse,
-            });
-            self.touches.push(Touch {
-                shapes: point.shapes,
-                normal: point.normal,
-                friction,
-                points: first..first + 1,
-            });
+            self.add_touch(point.shapes, point.place(), point.normal, point.impulse);
         }
+    }
+
+    /// Adds a point with the impulse on the first shape, to which the normal points; none where nothing is pressed.
+    fn add_touch(&mut self, shapes: [Handle; 2], place: Vector, normal: Vector, impulse: Vector) {
+        let pressed = impulse.dot(normal);
+        if pressed == 0.0 || !impulse.is_finite() {
+            return;
+        }
+        let first = self.points.len();
+        self.points.push(TouchPoint {
+            place,
+            impulse: pressed,
+        });
+        self.touches.push(Touch {
+            shapes,
+            normal,
+            friction: impulse - normal * pressed,
+            points: first..first + 1,
+        });
     }
 
     fn add_manifold(&mut self, world: &World, manifold: &ContactManifold, shapes: [Handle; 2]) {

@@ -153,7 +153,7 @@ impl<'a> Rules<'a> {
 }
 
 /// The collision response rule: local masks within a tree, global masks between trees.
-fn masks_overlap(a: Tag, b: Tag) -> bool {
+pub(super) fn masks_overlap(a: Tag, b: Tag) -> bool {
     let is_within = a.root == b.root;
     let bits = if is_within { 0x00ff } else { 0xff00 };
     a.mask & b.mask & bits != 0 || is_within && a.further_bits & b.further_bits != 0

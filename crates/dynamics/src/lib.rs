@@ -330,11 +330,12 @@ impl Dynamics {
 
     /// The pairs of shapes that may touch in the next sub-step, as far as they are known.
     pub fn pairs_near(&self) -> Vec<(Handle, Handle)> {
-        self.world
-            .as_deref()
-            .zip(self.call)
-            .map(|(world, call)| contacts::pairs_near(world, call.step))
-            .unwrap_or_default()
+        let Some((world, call)) = self.world.as_deref().zip(self.call) else {
+            return Vec::new();
+        };
+        let mut pairs = contacts::pairs_near(world, call.step);
+        pairs.extend(self.soft_bodies.pairs_near(world, call.step));
+        pairs
     }
 
     /// Whether the engine holds this shape, joint or force sensor.

@@ -76,8 +76,9 @@ impl Dynamics {
         if seen {
             self.report_soft_bodies(scene);
         }
+        let soft = self.soft_bodies.touches(&world);
         self.contacts
-            .add_sub_step(&world, self.mechanisms.contacts(), step);
+            .add_sub_step(&world, self.mechanisms.contacts(), &soft, step);
         self.particles
             .advance(scene, &self.bodies, &world, gravity, step);
         self.world = Some(world);

@@ -1,5 +1,7 @@
 //! Symmetric positive definite matrices with entries near the diagonal only.
 
+use nalgebra::Matrix3;
+
 /// Number of entries beside the diagonal. Three nodes with the angles between them are coupled: eleven unknowns in a row.
 pub(crate) const HALF: usize = 10;
 const WIDTH: usize = HALF + 1;
@@ -35,6 +37,39 @@ impl Banded {
             for (entry, right) in entries.iter_mut().zip(vector) {
                 *entry += left * right;
             }
+        }
+    }
+
+    /// Number of rows.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// An entry near the diagonal.
+    pub(crate) fn get(&self, row: usize, column: usize) -> f64 {
+        let (low, high) = (row.min(column), row.max(column));
+        self.rows[high][HALF + low - high]
+    }
+
+    /// Adds a symmetric block on the diagonal that begins at `base`.
+    pub(crate) fn add_block(&mut self, base: usize, block: &Matrix3<f64>) {
+        for row in 0..3 {
+            for column in 0..=row {
+                self.add(base + row, base + column, block[(row, column)]);
+            }
+        }
+    }
+
+    /// Writes the product with a vector.
+    pub(crate) fn multiply(&self, vector: &[f64], product: &mut [f64]) {
+        product.fill(0.0);
+        for (row, entries) in self.rows.iter().enumerate() {
+            let first = HALF.saturating_sub(row);
+            for (entry, column) in entries[first..HALF].iter().zip(row + first - HALF..row) {
+                product[row] += entry * vector[column];
+                product[column] += entry * vector[row];
+            }
+            product[row] += entries[HALF] * vector[row];
         }
     }
 

@@ -51,6 +51,62 @@ impl Coupling<'_> {
     }
 }
 
+/// An edge that is held against turning about its axis.
+pub(crate) struct TwistHold {
+    pub edge: usize,
+    /// The body that it turns with.
+    pub body: Option<usize>,
+    pub axis: V3,
+    /// The angle by which it is turned too far.
+    pub excess: f64,
+    /// N m
+    pub stiffness: f64,
+}
+
+impl TwistHold {
+    /// None where a hold lets the edge turn.
+    pub(crate) fn new(hold: &Hold, rod: &Rod, shape: &Shape, bodies: &Bodies) -> Option<Self> {
+        let edge = edge_of(hold, rod);
+        Some(Self {
+            edge,
+            body: hold.body().map(|(body, _)| body),
+            axis: shape.tangents[edge],
+            excess: excess_twist(hold, edge, shape, bodies)?,
+            stiffness: twist_stiffness(rod, edge),
+        })
+    }
+
+    /// On the edge, N m.
+    pub(crate) fn torque(&self) -> V3 {
+        self.axis * (-self.stiffness * self.excess)
+    }
+
+    pub(crate) fn potential(&self) -> f64 {
+        0.5 * self.stiffness * self.excess * self.excess
+    }
+
+    /// How the angle of the edge goes with the displacement of a body.
+    pub(crate) fn about(&self) -> Vector6<f64> {
+        let mut about = Vector6::zeros();
+        about.fixed_rows_mut::<3>(3).copy_from(&self.axis);
+        about
+    }
+
+    fn add(&self, equations: &mut Equations, common: &mut CommonEquations) {
+        let row = 4 * self.edge + 3;
+        let torque = self.stiffness * self.excess;
+        equations.add_spring(row, &[1.0], torque, self.stiffness);
+        if let Some(body) = self.body {
+            let about = self.about();
+            let (matrix, gradient) = &mut common.bodies[body];
+            *gradient -= about * torque;
+            *matrix += about * about.transpose() * self.stiffness;
+            let columns = CommonEquations::columns_of(body);
+            equations.add_to_border(columns, row, (about * -self.stiffness).as_slice());
+        }
+    }
+}
+
 /// Finds the forces and torques at the places where a rod is held.
 pub(crate) fn find_hold_forces(
     rod: &mut Rod,
@@ -63,9 +119,8 @@ pub(crate) fn find_hold_forces(
     let mut holds = std::mem::take(&mut rod.holds);
     for hold in &mut holds {
         hold.force = (place_of(hold, bodies) - trial[hold.node].xyz()) * stiffness;
-        let edge = edge_of(hold, rod);
-        let excess = excess_twist(hold, edge, shape, bodies).unwrap_or(0.0);
-        hold.torque = shape.tangents[edge] * (-twist_stiffness(rod, edge) * excess);
+        let twist = TwistHold::new(hold, rod, shape, bodies);
+        hold.torque = twist.map_or(V3::zeros(), |twist| twist.torque());
     }
     rod.holds = holds;
 }
@@ -90,34 +145,9 @@ pub(crate) fn add_holds(
             stiffness: Matrix3::identity() * stiffness,
         };
         coupling.add(equations, common);
-        let edge = edge_of(hold, rod);
-        if excess_twist(hold, edge, shape, bodies).is_some() {
-            add_torque(rod, hold, edge, shape, equations, common);
+        if let Some(twist) = TwistHold::new(hold, rod, shape, bodies) {
+            twist.add(equations, common);
         }
-    }
-}
-
-/// Adds the torque at an edge that does not turn about its own axis.
-fn add_torque(
-    rod: &Rod,
-    hold: &Hold,
-    edge: usize,
-    shape: &Shape,
-    equations: &mut Equations,
-    common: &mut CommonEquations,
-) {
-    let (row, stiffness) = (4 * edge + 3, twist_stiffness(rod, edge));
-    let tangent = shape.tangents[edge];
-    let excess_torque = -hold.torque.dot(&tangent);
-    equations.add_spring(row, &[1.0], excess_torque, stiffness);
-    if let Some((body, _)) = hold.body() {
-        let mut about = Vector6::zeros();
-        about.fixed_rows_mut::<3>(3).copy_from(&tangent);
-        let (matrix, gradient) = &mut common.bodies[body];
-        *gradient -= about * excess_torque;
-        *matrix += about * about.transpose() * stiffness;
-        let columns = CommonEquations::columns_of(body);
-        equations.add_to_border(columns, row, (about * -stiffness).as_slice());
     }
 }
 
@@ -234,10 +264,9 @@ pub(crate) fn hold_potential(
 ) -> f64 {
     let stiffness = hold_stiffness(rod, step);
     let of_hold = |hold: &Hold| {
-        let edge = edge_of(hold, rod);
-        let excess = excess_twist(hold, edge, shape, bodies).unwrap_or(0.0);
+        let twist = TwistHold::new(hold, rod, shape, bodies);
         let apart = place_of(hold, bodies) - trial[hold.node].xyz();
-        0.5 * (stiffness * apart.norm_squared() + twist_stiffness(rod, edge) * excess * excess)
+        0.5 * stiffness * apart.norm_squared() + twist.map_or(0.0, |twist| twist.potential())
     };
     rod.holds.iter().map(of_hold).sum()
 }

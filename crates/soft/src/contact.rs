@@ -32,6 +32,14 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Gives the rods other numbers.
+    pub(crate) fn number_rods(&mut self, number: impl Fn(usize) -> usize) {
+        self.rod = number(self.rod);
+        if let Surface::Rod(other, ..) = &mut self.surface {
+            *other = number(*other);
+        }
+    }
+
     fn name(&self) -> (usize, usize, u64) {
         (self.rod, self.edge, self.key)
     }

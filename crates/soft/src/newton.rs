@@ -71,7 +71,7 @@ enum Outcome {
 }
 
 /// Lets a rod rest where it is.
-fn stop(rod: &mut Rod) {
+pub(crate) fn stop(rod: &mut Rod) {
     let velocities = rod.now.velocities.iter_mut();
     velocities.for_each(|velocity| *velocity = Node::zeros());
     for hold in &mut rod.holds {
@@ -126,7 +126,12 @@ impl Solver {
                 .collect()
         };
         let trials: Vec<Vec<Node>> = rods.iter().map(guess).collect();
-        let scale = scale(rods);
+        let scale = rods
+            .iter()
+            .map(Rod::scale)
+            .fold([0.0; 2], |sum, [mass, moment]| {
+                [sum[0] + mass, sum[1] + moment]
+            });
         let unknowns: Vec<Unknown> = bodies
             .iter()
             .map(|body| Unknown::new(body, scale, step.length))
@@ -375,19 +380,6 @@ impl Solver {
     }
 }
 
-/// Mass of all rods, and their moment of inertia about an end.
-fn scale(rods: &[Rod]) -> [f64; 2] {
-    let of = |rod: &Rod| {
-        let length: f64 = rod.rest_lengths.iter().sum();
-        let mass = length * rod.material.line_density;
-        [mass, mass * length * length]
-    };
-    let each = rods.iter().map(of);
-    each.fold([0.0; 2], |sum, [mass, moment]| {
-        [sum[0] + mass, sum[1] + moment]
-    })
-}
-
 /// Counts the steps in which nothing is near the rods, now or where they would go.
 fn count_calm_steps(
     rods: &mut [Rod],
@@ -412,7 +404,7 @@ fn count_calm_steps(
 }
 
 /// The rod at the end of the step.
-fn move_on(rod: &mut Rod, scheme: &Scheme, trial: Vec<Node>, step: f64) {
+pub(crate) fn move_on(rod: &mut Rod, scheme: &Scheme, trial: Vec<Node>, step: f64) {
     let pairs = trial.iter().zip(&scheme.places);
     let velocities = pairs
         .map(|(end, start)| (end - start) / scheme.factor)

@@ -224,6 +224,13 @@ impl Rod {
         0.5 * kinetic + elastic_potential(self, &self.shape, 0.0)
     }
 
+    /// Mass, and moment of inertia about an end.
+    pub(crate) fn scale(&self) -> [f64; 2] {
+        let length: f64 = self.rest_lengths.iter().sum();
+        let mass = length * self.material.line_density;
+        [mass, mass * length * length]
+    }
+
     /// Stiffnesses of a vertex against its two curvatures and its twist, N m; None where an edge is broken.
     pub(crate) fn vertex_stiffness(&self, vertex: usize) -> Option<[f64; 3]> {
         let length = self.free_length(vertex)?;

@@ -120,7 +120,15 @@ const DYNAMICS: Rooms = &[
     ("contact_log", &["bodies", "convert", "mechanisms", "world"]),
     (
         "soft_bodies",
-        &["bodies", "contacts", "convert", "near", "plan", "world"],
+        &[
+            "bodies",
+            "contact_log",
+            "contacts",
+            "convert",
+            "near",
+            "plan",
+            "world",
+        ],
     ),
     ("particles", &["bodies", "convert", "world"]),
     ("adhesion", &["bodies", "contacts", "near", "world"]),

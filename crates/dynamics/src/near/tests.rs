@@ -84,6 +84,22 @@ fn what_is_in_the_way_of_a_fast_body_is_found() {
 }
 
 #[test]
+fn queries_find_what_is_there_after_each_detection_of_collisions() {
+    let (mut world, ball) = with_ball(RigidBodyBuilder::dynamic());
+    let post = ColliderBuilder::cuboid(0.1, 0.1, 0.1).translation(Vector::new(1.0, 0.0, 1.0));
+    world.colliders.insert(post.build());
+    moving(&mut world, ball, Vector::X * 200.0, Vector::ZERO);
+    let body = world.colliders[ball].parent().expect("it has a body");
+    for number in 0..40 {
+        // Moved by something else than rapier, as mechanisms are.
+        let place = Vector::new(0.01 * f64::from(number), 0.0, 1.0);
+        world.bodies[body].set_translation(place, true);
+        world.detect_collisions(GRAVITY, &());
+        assert_eq!(world.ahead(ball, STEP).len(), 1, "after {number} moves");
+    }
+}
+
+#[test]
 fn a_pair_is_woken_as_far_as_it_sleeps() {
     let (mut world, ball) = with_ball(RigidBodyBuilder::dynamic());
     world.step(1e-9, GRAVITY, &());

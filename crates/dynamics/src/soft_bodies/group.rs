@@ -9,19 +9,16 @@ use soft::V3;
 
 use super::coupling::Coupled;
 use super::held::Held;
-use super::obstacle::Search;
+use super::obstacle::{Found, Search, Sides};
 use super::part::Part;
 use super::{Placed, Start};
 use crate::bodies::Bodies;
 use crate::plan::SoftPlan;
 use crate::world::World;
 
-/// What comes nearer than this to each other may touch, metres, beside what it moves in a sub-step.
-const MARGIN: f64 = 1e-3;
-
 /// Soft bodies of one kind.
 pub(super) struct Group<P: Part> {
-    all: Vec<Placed>,
+    pub all: Vec<Placed>,
     /// In the order of `all`, as the solver takes them.
     pub parts: Vec<P>,
     pub contacts: Vec<P::Contact>,
@@ -94,9 +91,19 @@ impl<P: Part> Group<P> {
             {
                 part.forget_history();
             }
-            let known_pins = before.map_or(Vec::new(), |placed| placed.held);
+            let (known_pins, sides) = before.map_or_else(Default::default, |placed| {
+                (
+                    placed.held,
+                    if is_put { Sides::new() } else { placed.sides },
+                )
+            });
             let held = Held::all(&plan, &part, known_pins, bodies, world, scene);
-            self.all.push(Placed { shape, plan, held });
+            self.all.push(Placed {
+                shape,
+                plan,
+                held,
+                sides,
+            });
             self.parts.push(part);
         }
         self.contacts.clear();
@@ -135,42 +142,31 @@ impl<P: Part> Group<P> {
 
     /// Finds the points at which they may touch what collides.
     pub(super) fn search(
-        &self,
+        &mut self,
         bodies: &Bodies,
         world: &World,
         start: Start<'_>,
         coupled: &mut Coupled,
     ) -> Vec<P::Contact> {
         let mut contacts = Vec::new();
-        for (number, placed) in self.all.iter().enumerate() {
+        for (number, placed) in self.all.iter_mut().enumerate() {
+            let sides = std::mem::take(&mut placed.sides);
             let search = Search {
                 number,
+                sides: &sides,
                 placed,
                 bodies,
                 world,
                 start,
             };
-            search.run(&self.parts[number], &mut contacts, coupled);
+            let mut found = Found {
+                contacts,
+                sides: Sides::new(),
+            };
+            search.run(&self.parts[number], &mut found, coupled);
+            (contacts, placed.sides) = (found.contacts, found.sides);
         }
         contacts
-    }
-
-    /// Finds where they touch each other and themselves.
-    pub(super) fn between(&self, start: Start<'_>) -> Vec<P::Contact> {
-        if let [alone] = &self.all[..]
-            && !alone.plan.soft.touches_itself()
-        {
-            return Vec::new();
-        }
-        P::between(&self.parts, MARGIN, start.step, &|first, second| {
-            let [a, b] = [first, second].map(|number| &self.all[number]);
-            if first == second {
-                let own = a.friction(b.plan.surface.friction);
-                return a.plan.soft.touches_itself().then_some(own);
-            }
-            let response = start.verdicts.response(a.tag(), b.tag());
-            a.friction_in(response, b.plan.surface.friction)
-        })
     }
 
     /// Remembers how the parts move, to go back there.

@@ -1,14 +1,16 @@
 //! Ropes, cloths and volumes of the scene, moved by the crate `soft`.
 //!
 //! They move at the beginning of each sub-step, from where the bodies are. What they do to bodies that move is applied as forces in that sub-step. A body
-//! resists with all that it is linked with: mechanisms are solved once without them, which says where bodies would go and what an impulse changes. Ropes are
-//! solved first, then cloths and volumes together, with the bodies as the ropes leave them.
+//! resists with all that it is linked with: mechanisms are solved once without them, which says where bodies would go and what an impulse changes. Ropes that touch no
+//! cloth or volume are solved first, then cloths and volumes with the ropes that touch them, with the bodies as the first ones leave them.
 
+mod between;
 mod coupling;
 mod group;
 mod held;
 mod obstacle;
 mod part;
+mod seen;
 mod touches;
 
 use std::rc::Rc;
@@ -18,7 +20,7 @@ use rapier3d_f64::prelude::RigidBody;
 use scene::shape::soft::Soft;
 use scene::{Handle, Scene};
 use soft::fem::{self, Deformable};
-use soft::{Contact, Rod, Step, V3};
+use soft::{Contact, Rod, Step, Together, V3, solve_together};
 
 use crate::bodies::{Bodies, Tag};
 use crate::contacts::{ContactResponse, Verdicts};
@@ -28,6 +30,7 @@ use crate::world::World;
 use coupling::Coupled;
 use group::Group;
 use held::Held;
+use obstacle::Sides;
 
 pub(super) use coupling::Response;
 
@@ -52,6 +55,7 @@ struct Placed {
     shape: Handle,
     plan: SoftPlan,
     held: Vec<Held>,
+    sides: Sides,
 }
 
 /// What soft bodies start from in a sub-step.
@@ -112,11 +116,11 @@ impl SoftBodies {
         self.ropes.hold(bodies, world, start, coupled);
         self.bodies.hold(bodies, world, start, coupled);
         let mut contacts = self.ropes.search(bodies, world, start, coupled);
-        contacts.extend(self.ropes.between(start));
+        contacts.extend(between::ropes(&self.ropes, start));
         Contact::carry_on(&mut contacts, &mut self.ropes.contacts);
         self.ropes.contacts = contacts;
         let mut contacts = self.bodies.search(bodies, world, start, coupled);
-        contacts.extend(self.bodies.between(start));
+        contacts.extend(between::touching(&self.bodies, &self.ropes, start));
         fem::Contact::carry_on(&mut contacts, &mut self.bodies.contacts);
         self.bodies.contacts = contacts;
         !self.coupled.is_empty()
@@ -159,20 +163,13 @@ impl SoftBodies {
 
     /// The impulses on rigid bodies, which have their velocities after these.
     fn move_parts(&mut self, rigid: &mut [soft::Body], step: Step) -> Vec<Vector6<f64>> {
-        let mut impulses = vec![Vector6::zeros(); rigid.len()];
-        let Group {
-            parts, contacts, ..
-        } = &mut self.ropes;
-        if !parts.is_empty() && soft::solve(parts, rigid, contacts, step) {
-            take_impulses(rigid, &mut impulses);
-        }
-        let Group {
-            parts, contacts, ..
-        } = &mut self.bodies;
-        if !parts.is_empty() && fem::solve(parts, rigid, contacts, step) {
-            take_impulses(rigid, &mut impulses);
-        }
-        impulses
+        let all = Together {
+            rods: &mut self.ropes.parts,
+            rod_contacts: &mut self.ropes.contacts,
+            parts: &mut self.bodies.parts,
+            contacts: &mut self.bodies.contacts,
+        };
+        solve_together(all, rigid, step)
     }
 
     /// Whether coupled bodies get the velocities with which the soft ones were solved; None: what nothing but impulses changes.
@@ -199,14 +196,6 @@ impl SoftBodies {
     pub(super) fn report(&self, scene: &mut Scene) {
         self.ropes.report(scene);
         self.bodies.report(scene);
-    }
-}
-
-/// Bodies go on with what they have received.
-fn take_impulses(bodies: &mut [soft::Body], impulses: &mut [Vector6<f64>]) {
-    for (body, sum) in bodies.iter_mut().zip(impulses) {
-        *sum += body.impulse;
-        body.velocity += body.response * body.impulse;
     }
 }
 

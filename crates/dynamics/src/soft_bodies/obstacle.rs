@@ -1,8 +1,10 @@
 //! What something soft may touch in a sub-step.
 
+use std::collections::BTreeMap;
+
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
-use rapier3d_f64::parry::query::{ClosestPoints, closest_points};
+use rapier3d_f64::parry::query::{ClosestPoints, Ray, closest_points};
 use rapier3d_f64::parry::shape::{Segment, Shape, Triangle};
 use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryFilter, RigidBody};
 use soft::V3;
@@ -16,16 +18,31 @@ use crate::world::World;
 
 /// Distance at which contacts are prepared beside what both sides move, metres.
 const SLACK: f64 = 1e-3;
+/// Farthest that a point may be beneath the surface on its side, metres, beside its reach.
+const MAX_DEPTH: f64 = 0.05;
+/// Cosine of the angle between normals at which a point counts as behind an obstacle.
+const OPPOSITE: f64 = -0.5;
 /// Weight of a corner below which a point is on the side opposite to it.
 const EDGE: f64 = 1e-6;
+
+/// For nodes near a collider (by its index) the side of its surface on which they are: normals, which point to them.
+pub(super) type Sides = BTreeMap<(u32, usize), V3>;
 
 /// The search for one rope, cloth or volume.
 pub(super) struct Search<'a> {
     pub number: usize,
+    /// Found in the sub-step before.
+    pub sides: &'a Sides,
     pub placed: &'a Placed,
     pub bodies: &'a Bodies,
     pub world: &'a World,
     pub start: Start<'a>,
+}
+
+/// What a search finds.
+pub(super) struct Found<P: Part> {
+    pub contacts: Vec<P::Contact>,
+    pub sides: Sides,
 }
 
 /// Something near it.
@@ -42,6 +59,7 @@ pub(super) struct Obstacle<'a> {
 }
 
 /// A point of a surface near one of what is soft.
+#[derive(Clone, Copy)]
 pub(super) struct Near {
     pub point: V3,
     pub normal: V3,
@@ -49,12 +67,7 @@ pub(super) struct Near {
 }
 
 impl Search<'_> {
-    pub(super) fn run<P: Part>(
-        &self,
-        part: &P,
-        contacts: &mut Vec<P::Contact>,
-        coupled: &mut Coupled,
-    ) {
+    pub(super) fn run<P: Part>(&self, part: &P, found: &mut Found<P>, coupled: &mut Coupled) {
         let Some(bounds) = self.bounds(part) else {
             return;
         };
@@ -64,11 +77,11 @@ impl Search<'_> {
             &self.world.colliders,
             QueryFilter::default(),
         );
-        let found = query.intersect_aabb_conservative(bounds);
-        let mut near: Vec<ColliderHandle> = found.map(|(handle, _)| handle).collect();
+        let around = query.intersect_aabb_conservative(bounds);
+        let mut near: Vec<ColliderHandle> = around.map(|(handle, _)| handle).collect();
         near.sort_unstable_by_key(|handle| handle.into_raw_parts());
         for handle in near {
-            self.touch(part, handle, contacts, coupled);
+            self.touch(part, handle, found, coupled);
         }
     }
 
@@ -92,23 +105,28 @@ impl Search<'_> {
         &self,
         part: &P,
         handle: ColliderHandle,
-        contacts: &mut Vec<P::Contact>,
+        found: &mut Found<P>,
         coupled: &mut Coupled,
     ) {
         let Some(obstacle) = self.obstacle(part, handle) else {
             return;
         };
-        let mut found = part.touches(self, &obstacle);
-        if !found.is_empty()
+        let nodes = self.near_nodes(part, &obstacle);
+        let index = handle.into_raw_parts().0;
+        let known = nodes.iter().enumerate();
+        let sides = known.filter_map(|(node, near)| Some(((index, node), (*near)?.normal)));
+        found.sides.extend(sides);
+        let mut touches = part.touches(self, &obstacle, nodes);
+        if !touches.is_empty()
             && obstacle.rigid.is_dynamic()
             && let Some(body) = self.bodies.get(obstacle.tag.shape)
         {
             let number = coupled.add(obstacle.tag.shape, body.rigid);
-            found
+            touches
                 .iter_mut()
                 .for_each(|contact| P::is_with(contact, number));
         }
-        contacts.append(&mut found);
+        found.contacts.append(&mut touches);
     }
 
     fn obstacle(&self, part: &impl Part, handle: ColliderHandle) -> Option<Obstacle<'_>> {
@@ -137,12 +155,14 @@ impl Search<'_> {
     }
 
     /// For each node the nearest point of an obstacle, where it is near and may touch it.
-    pub(super) fn near_nodes(&self, part: &impl Part, obstacle: &Obstacle) -> Vec<Option<Near>> {
+    fn near_nodes(&self, part: &impl Part, obstacle: &Obstacle) -> Vec<Option<Near>> {
+        let index = obstacle.handle.into_raw_parts().0;
         let of_node = |node: usize| {
             let point = place(part.point(node));
             let is_near =
                 obstacle.bounds.contains_local_point(point) && !self.is_exempt(node, obstacle);
-            is_near.then(|| obstacle.nearest(point)).flatten()
+            let side = self.sides.get(&(index, node));
+            is_near.then(|| obstacle.nearest(point, side)).flatten()
         };
         (0..part.len()).map(of_node).collect()
     }
@@ -153,8 +173,40 @@ pub(super) fn place(point: V3) -> Vector {
 }
 
 impl Obstacle<'_> {
-    /// The point of the surface nearest to a point.
-    pub(super) fn nearest(&self, point: Vector) -> Option<Near> {
+    /// The point of the surface nearest to a point. What has come to be within the obstacle, or behind it, is nearest to the side on which it was.
+    fn nearest(&self, point: Vector, side: Option<&V3>) -> Option<Near> {
+        let near = self.projected(point)?;
+        let has_passed = |side: &&V3| near.distance < 0.0 || near.normal.dot(side) < OPPOSITE;
+        let side = side.filter(has_passed);
+        side.and_then(|side| self.beneath(point, side))
+            .or(Some(near))
+    }
+
+    /// The surface above a point that is within the obstacle or behind it, seen along a direction.
+    fn beneath(&self, point: Vector, side: &V3) -> Option<Near> {
+        let up = place(*side);
+        let (pose, shape) = (self.collider.position(), self.collider.shape());
+        let cast = |from: Vector, is_solid: bool| {
+            let ray = Ray::new(from, up);
+            shape.cast_ray_and_get_normal(pose, &ray, self.reach + MAX_DEPTH, is_solid)
+        };
+        let entry = cast(point, true)?.time_of_impact;
+        let exit = cast(point + up * (entry + 1e-9), false)?;
+        let surface = point + up * (entry + exit.time_of_impact);
+        let normal = if exit.normal.dot(up) < 0.0 {
+            -exit.normal
+        } else {
+            exit.normal
+        };
+        let depth = (surface - point).dot(normal);
+        Some(Near {
+            point: V3::from(from_vector(point + normal * depth)),
+            normal: V3::from(from_vector(normal)),
+            distance: -depth,
+        })
+    }
+
+    fn projected(&self, point: Vector) -> Option<Near> {
         let shape = self.collider.shape();
         let found = shape.project_point(self.collider.position(), point, false);
         let apart = point - found.point;

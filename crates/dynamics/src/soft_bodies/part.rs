@@ -6,11 +6,8 @@ use scene::shape::soft::{Soft, SoftForm};
 use soft::fem::{self, Deformable};
 use soft::{Contact, Hold, Material, Rod, Surface, V3};
 
-use super::obstacle::{Obstacle, Search};
+use super::obstacle::{Near, Obstacle, Search};
 use super::touches;
-
-/// Friction of two of them, by their numbers; None where they do not touch.
-pub(super) type Friction<'a> = dyn Fn(usize, usize) -> Option<f64> + 'a;
 
 /// Something soft that the solver moves.
 pub(super) trait Part: Sized {
@@ -57,10 +54,13 @@ pub(super) trait Part: Sized {
         }
     }
 
-    /// The points at which it may touch an obstacle.
-    fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<Self::Contact>;
-    /// The points at which some of them may touch each other and themselves, with the friction of two of them.
-    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<Self::Contact>;
+    /// The points at which it may touch an obstacle, with the nearest point for each node that is near.
+    fn touches(
+        &self,
+        search: &Search,
+        obstacle: &Obstacle,
+        nodes: Vec<Option<Near>>,
+    ) -> Vec<Self::Contact>;
     /// A contact is with a body that forces move.
     fn is_with(contact: &mut Self::Contact, body: usize);
 
@@ -75,13 +75,13 @@ impl Part for Rod {
     type Contact = Contact;
     type State = Self;
 
-    fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<Contact> {
-        touches::of_rod(self, search, obstacle)
-    }
-
-    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<Contact> {
-        let fastest = parts.iter().map(Part::fastest).fold(0.0, f64::max);
-        soft::between(parts, margin + 2.0 * fastest * step, friction)
+    fn touches(
+        &self,
+        search: &Search,
+        obstacle: &Obstacle,
+        nodes: Vec<Option<Near>>,
+    ) -> Vec<Contact> {
+        touches::of_rod(self, search, obstacle, nodes)
     }
 
     fn is_with(contact: &mut Contact, body: usize) {
@@ -183,12 +183,13 @@ impl Part for Deformable {
     /// Places and velocities. What was torn stays so.
     type State = [Vec<V3>; 2];
 
-    fn touches(&self, search: &Search, obstacle: &Obstacle) -> Vec<fem::Contact> {
-        touches::of_deformable(self, search, obstacle)
-    }
-
-    fn between(parts: &[Self], margin: f64, step: f64, friction: &Friction) -> Vec<fem::Contact> {
-        fem::nearby(parts, margin, step, friction)
+    fn touches(
+        &self,
+        search: &Search,
+        obstacle: &Obstacle,
+        nodes: Vec<Option<Near>>,
+    ) -> Vec<fem::Contact> {
+        touches::of_deformable(self, search, obstacle, nodes)
     }
 
     fn is_with(contact: &mut fem::Contact, body: usize) {

@@ -10,8 +10,12 @@ use super::obstacle::{Near, Obstacle, Search, place};
 const NEARER: f64 = 1e-3;
 
 /// The points of a rope: nodes, and edges where they are nearer than their ends.
-pub(super) fn of_rod(rod: &Rod, search: &Search, obstacle: &Obstacle) -> Vec<Contact> {
-    let mut nodes = search.near_nodes(rod, obstacle);
+pub(super) fn of_rod(
+    rod: &Rod,
+    search: &Search,
+    obstacle: &Obstacle,
+    mut nodes: Vec<Option<Near>>,
+) -> Vec<Contact> {
     let (mut contacts, mut taken) = (Vec::new(), Vec::new());
     for edge in 0..rod.len() - 1 {
         let ends = [edge, edge + 1];
@@ -77,14 +81,13 @@ fn on_rod(
     is_between: bool,
 ) -> Contact {
     let last = u64::from(weight == 1.0) << 1;
-    let collider = u64::from(obstacle.handle.into_raw_parts().0);
     Contact {
         rod: search.number,
         edge,
         weight,
         surface: Surface::Obstacle(obstacle.velocity_at(near.point, search.start.step)),
         touch: touch_at(near, obstacle),
-        key: collider << 2 | last | u64::from(is_between),
+        key: key(obstacle) | last | u64::from(is_between),
     }
 }
 
@@ -93,8 +96,8 @@ pub(super) fn of_deformable(
     part: &Deformable,
     search: &Search,
     obstacle: &Obstacle,
+    mut nodes: Vec<Option<Near>>,
 ) -> Vec<fem::Contact> {
-    let mut nodes = search.near_nodes(part, obstacle);
     let (mut contacts, mut taken) = (Vec::new(), Vec::new());
     for (number, corners) in part.surface().iter().enumerate() {
         let places = corners.map(|node| part.points()[node]);
@@ -127,12 +130,21 @@ fn on_part(
     near: &Near,
     element: usize,
 ) -> fem::Contact {
-    let collider = u64::from(obstacle.handle.into_raw_parts().0);
     fem::Contact {
         part: search.number,
         spot,
         surface: fem::Surface::Obstacle(obstacle.velocity_at(near.point, search.start.step)),
         touch: touch_at(near, obstacle),
-        key: collider << 32 | element as u64,
+        key: key(obstacle) | element as u64,
     }
+}
+
+/// What keys of contacts with an obstacle begin with.
+fn key(obstacle: &Obstacle) -> u64 {
+    u64::from(obstacle.handle.into_raw_parts().0) << 32
+}
+
+/// The index of the collider that a contact with a rigid body or an obstacle is with, by its key.
+pub(super) fn collider_of(key: u64) -> u32 {
+    (key >> 32) as u32
 }

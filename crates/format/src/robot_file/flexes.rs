@@ -8,7 +8,7 @@ use scene::shape::soft::body::Body;
 use scene::shape::soft::rope::Rope;
 use scene::shape::soft::{Pin, Soft};
 use scene::shape::{Appearance, Material, RespondableMask, Shape};
-use scene::{Handle, Kind, Pose, Scene, SceneResult};
+use scene::{COLLISION_TREE, Data, Handle, Kind, Pose, Scene, SceneResult, ValueType};
 
 /// The colour of what has none in the file.
 const COLOR: [f32; 3] = [0.5, 0.5, 0.5];
@@ -169,6 +169,11 @@ impl Import<'_> {
             let kind = Kind::Shape(Box::new(made.shape));
             let shape = self.add(alias, kind, frame, carrier)?;
             self.scene.set_soft(shape, &made.soft)?;
+            if flex.link == 0 {
+                // It touches the shapes of the world, as what hangs on that does.
+                let yes = (ValueType::Bool, Data::Bool(true));
+                self.set_custom_data(shape, COLLISION_TREE, yes)?;
+            }
             pin_nodes(self.scene, shape, flex, carrier, frame)?;
         }
         Ok(())
@@ -213,7 +218,10 @@ mod tests {
             </worldbody></mujoco>",
         );
         assert_eq!(messages, [""; 0]);
+        let hose = named(&scene, "hose");
+        assert!(hose.custom_data.typed(COLLISION_TREE).is_some());
         let net = named(&scene, "net");
+        assert!(net.custom_data.typed(COLLISION_TREE).is_none());
         let base = net.parent().expect("it is on the body");
         let place = scene
             .world_pose(base)

@@ -21,14 +21,14 @@ pub enum Surface {
     Obstacle(V3),
     /// A rigid body, by its index.
     Body(usize),
-    /// A cloth or volume, by its index, and where on it.
+    /// A cloth or volume by its index, or a rod by its index after all of these, and where on it.
     Soft(usize, Spot),
 }
 
-/// A point at which a cloth or volume touches something, or may in this step.
+/// A point at which a cloth or volume touches something, or a rod touches one of these, or may in this step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// The cloth or volume, by its index.
+    /// The cloth or volume by its index, or the rod by its index after all of these.
     pub part: usize,
     /// Where on it.
     pub spot: Spot,
@@ -41,6 +41,24 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// The cloths, volumes and rods that touch each other.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = usize> + use<> {
+        let other = match self.surface {
+            Surface::Soft(other, _) => Some(other),
+            _ => None,
+        };
+        std::iter::once(self.part).chain(other)
+    }
+
+    /// Their numbers, to change them.
+    pub(crate) fn parts_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        let other = match &mut self.surface {
+            Surface::Soft(other, _) => Some(other),
+            _ => None,
+        };
+        std::iter::once(&mut self.part).chain(other)
+    }
+
     fn name(&self) -> (usize, u64) {
         (self.part, self.key)
     }

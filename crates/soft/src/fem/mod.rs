@@ -12,22 +12,27 @@
 //!   depends on how far a wave of stress runs in a step, in elements: the cost grows linearly with a mesh that gets larger, and faster with one that gets finer.
 //! - Rigid bodies are unknowns as for rods. What is held goes exactly with what holds it. Contacts are as for rods.
 //! - What has nothing to do with each other is solved on its own.
+//! - Rods that touch a cloth or volume are solved together with it: their nodes and angles are unknowns too, and the factors of their banded matrices are the
+//!   preconditioner for these.
 //! - Largest friction forces are those of the first iterations of a step, so that the rest of them has a potential.
 //!
 //! # Limits
 //!
 //! Elements are linear: volumes of few layers bend too stiffly (by 18 % with four layers, by 6 % with eight), and those that hardly change their volume (Poisson's
-//! ratio above 0.45) more so. Cloths and volumes do not touch rods.
+//! ratio above 0.45) more so.
 
 mod bending;
 mod blocks;
 mod contact;
 mod gas;
 mod islands;
+mod joined_rod;
 mod material;
 mod membrane;
+mod mesh;
 mod nearby;
 mod newton;
+mod part_step;
 mod sparse;
 mod system;
 mod tetrahedron;
@@ -41,7 +46,7 @@ use membrane::Membrane;
 use tetrahedron::Tetrahedron;
 
 pub use contact::{Contact, Spot, Surface};
-pub use islands::solve;
+pub use islands::{Parts, solve};
 pub use material::Material;
 pub use nearby::nearby;
 

@@ -1,10 +1,12 @@
-//! Where cloths and volumes touch each other and themselves.
+//! Where cloths and volumes touch each other, themselves and rods.
 
 use std::collections::BTreeMap;
 
 use super::Deformable;
 use super::contact::{Contact, Spot, Surface};
+use super::mesh::Mesh;
 use crate::V3;
+use crate::rod::Rod;
 use crate::touch::Touch;
 
 /// A node, an edge or a triangle of a part.
@@ -21,24 +23,30 @@ struct Bounds {
     high: V3,
 }
 
-/// The points at which cloths and volumes are nearer than `margin` (metres) to each other, or come so in a step of `step` seconds. `friction`: of a pair of parts; None if they do not touch.
+/// The points at which cloths and volumes are nearer than `margin` (metres) to each other or to rods, or come so in a step of `step` seconds. Rods are numbered
+/// after the parts; those among themselves are left to [`between`](crate::between). `friction`: of a pair; None if they do not touch.
 ///
 /// Nodes against triangles, and edges against edges. What shares a node does not touch.
 pub fn nearby(
     parts: &[Deformable],
+    rods: &[Rod],
     margin: f64,
     step: f64,
     friction: impl Fn(usize, usize) -> Option<f64>,
 ) -> Vec<Contact> {
+    let meshes = parts.iter().map(|part| part as &dyn Mesh);
     let search = Search {
-        parts,
+        meshes: meshes
+            .chain(rods.iter().map(|rod| rod as &dyn Mesh))
+            .collect(),
         margin,
         step,
     };
     let mut contacts = Vec::new();
-    let whole: Vec<Bounds> = (0..parts.len()).map(|part| search.whole(part)).collect();
+    let count = search.meshes.len();
+    let whole: Vec<Bounds> = (0..count).map(|part| search.whole(part)).collect();
     for first in 0..parts.len() {
-        for second in first..parts.len() {
+        for second in first..count {
             let is_near = whole[first].overlaps(&whole[second]);
             if let Some(friction) = friction(first, second).filter(|_| is_near) {
                 search.between(first, second, friction, &mut contacts);
@@ -49,7 +57,8 @@ pub fn nearby(
 }
 
 struct Search<'a> {
-    parts: &'a [Deformable],
+    /// Parts, and then rods.
+    meshes: Vec<&'a dyn Mesh>,
     margin: f64,
     step: f64,
 }
@@ -70,27 +79,19 @@ impl Search<'_> {
     }
 
     fn nodes(&self, part: usize) -> Vec<Element> {
-        self.elements(part, |[a, b, c]| [[a, a, a], [b, b, b], [c, c, c]])
+        self.elements(part, &|mesh| mesh.surface_nodes())
     }
 
     fn edges(&self, part: usize) -> Vec<Element> {
-        let edge = |a: usize, b: usize| [a.min(b), a.max(b), a.max(b)];
-        self.elements(part, |[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)])
+        self.elements(part, &|mesh| mesh.edges())
     }
 
     fn triangles(&self, part: usize) -> Vec<Element> {
-        self.elements(part, |triangle| [triangle])
+        self.elements(part, &|mesh| mesh.triangles())
     }
 
-    fn elements<const N: usize>(
-        &self,
-        part: usize,
-        of: impl Fn([usize; 3]) -> [[usize; 3]; N],
-    ) -> Vec<Element> {
-        let deformable = &self.parts[part];
-        let whole = deformable.surface.iter().enumerate();
-        let whole = whole.filter(|(number, _)| !deformable.is_torn(*number));
-        let nodes = whole.flat_map(|(_, triangle)| of(*triangle));
+    fn elements(&self, part: usize, of: &dyn Fn(&dyn Mesh) -> Vec<[usize; 3]>) -> Vec<Element> {
+        let nodes = of(self.meshes[part]).into_iter();
         let mut all: Vec<Element> = nodes.map(|nodes| Element { part, nodes }).collect();
         all.sort_unstable();
         all.dedup();
@@ -99,7 +100,7 @@ impl Search<'_> {
 
     /// Where a part is in the step.
     fn whole(&self, part: usize) -> Bounds {
-        let nodes = (0..self.parts[part].len()).map(|node| {
+        let nodes = (0..self.meshes[part].len()).map(|node| {
             self.bounds(Element {
                 part,
                 nodes: [node; 3],
@@ -117,25 +118,25 @@ impl Search<'_> {
     }
 
     fn place(&self, element: Element, corner: usize) -> V3 {
-        self.parts[element.part].places[element.nodes[corner]]
+        self.meshes[element.part].place(element.nodes[corner])
     }
 
     fn velocity(&self, element: Element, weights: [f64; 3]) -> V3 {
-        let velocities = &self.parts[element.part].velocities;
+        let mesh = self.meshes[element.part];
         let parts = element.nodes.iter().zip(weights);
         parts.fold(V3::zeros(), |sum, (node, weight)| {
-            sum + velocities[*node] * weight
+            sum + mesh.velocity(*node) * weight
         })
     }
 
     /// Where an element is in the step.
     fn bounds(&self, element: Element) -> Bounds {
-        let part = &self.parts[element.part];
-        let reach = V3::repeat(part.material.radius + 0.5 * self.margin);
+        let mesh = self.meshes[element.part];
+        let reach = V3::repeat(mesh.radius() + 0.5 * self.margin);
         let [mut low, mut high] = [self.place(element, 0); 2];
         for node in element.nodes {
-            let start = part.places[node];
-            let end = start + part.velocities[node] * self.step;
+            let start = mesh.place(node);
+            let end = start + mesh.velocity(node) * self.step;
             (low, high) = (low.inf(&start).inf(&end), high.sup(&start).sup(&end));
         }
         Bounds {
@@ -195,7 +196,7 @@ impl Search<'_> {
         let place = at(second, on_second);
         let apart = at(first, on_first) - place;
         let distance = apart.norm();
-        let [own, other] = [first, second].map(|e| self.parts[e.part].material.radius);
+        let [own, other] = [first, second].map(|e| self.meshes[e.part].radius());
         let moved = self.velocity(first, on_first) - self.velocity(second, on_second);
         let reach = own + other + self.margin + moved.norm() * self.step;
         if distance > reach || distance < 1e-9 {

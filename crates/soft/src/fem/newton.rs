@@ -1,16 +1,17 @@
-//! One step of cloths and volumes, and of the bodies that they are coupled with.
+//! One step of cloths and volumes, of rods that they touch, and of the bodies that they are coupled with.
 
 use nalgebra::Vector6;
 
 use super::Deformable;
 use super::contact::{Contact, Surface, Trial};
-use super::gas::{volume_gradient, volume_of};
-use super::islands::Island;
+use super::islands::{Island, Members};
+use super::joined_rod::JoinedRod;
 use super::system::{Coupling, Held, Joined, System, Vector};
 use crate::assembly::lever_map;
 use crate::body::{Body, Unknown};
-use crate::rod::Target;
-use crate::{Step, V3};
+use crate::bound::Bodies;
+use crate::rod::{Hold, Target};
+use crate::{Step, V3, newton};
 
 /// Most iterations of Newton's method in a step.
 const MAX_ITERATIONS: usize = 20;
@@ -23,29 +24,35 @@ const ROUNDING: f64 = 1e-12;
 /// How often a change is halved that goes too far.
 const MAX_HALVINGS: usize = 12;
 
-/// Moves cloths and volumes that have to do with each other; false where there is no solution in finite numbers: then they stay where they are, at rest.
+/// Farthest that a node goes in an iteration where there are rods, in lengths of the shortest edge.
+const LONGEST_WAY: f64 = 1.0;
+
+/// Moves what has to do with each other; false where there is no solution in finite numbers: then it stays where it is, at rest.
 pub(super) fn solve_island(island: &mut Island, step: Step) -> bool {
     let Island {
-        parts,
+        members,
         bodies,
         contacts,
         ..
     } = island;
-    parts.iter_mut().for_each(|part| part.begin_step());
-    let mut solver = Solver::new(parts, bodies, step);
-    let is_found = solver.iterate(parts, bodies, contacts);
-    if is_found {
-        solver.finish(parts, bodies, contacts);
-    } else {
-        for part in parts {
+    members.parts.iter_mut().for_each(|part| part.begin_step());
+    let mut solver = Solver::new(members, bodies, step);
+    let outcome = solver.iterate(members, bodies, contacts);
+    if outcome != Outcome::Lost {
+        solver.finish(members, bodies, contacts);
+    }
+    if outcome != Outcome::Found {
+        for part in &mut members.parts {
             part.velocities.fill(V3::zeros());
         }
+        members.rods.iter_mut().for_each(|rod| newton::stop(rod));
     }
-    is_found
+    outcome != Outcome::Lost
 }
 
 struct Solver {
     step: Step,
+    /// Where the nodes of each part begin among all, and after these those of each rod.
     starts: Vec<usize>,
     masses: Vec<f64>,
     radii: Vec<f64>,
@@ -53,7 +60,12 @@ struct Solver {
     /// Places at the beginning of the step and in the trial.
     before: Vec<V3>,
     now: Vec<V3>,
+    rods: Vec<JoinedRod>,
+    /// Angles of the edges of rods in the trial.
+    angles: Vec<f64>,
     unknowns: Vec<Unknown>,
+    /// Farthest that a node goes in an iteration, metres.
+    longest_way: f64,
     /// Change by which the solution counts as found, metres.
     enough: f64,
     /// Of the potential in the trial.
@@ -63,45 +75,69 @@ struct Solver {
 }
 
 impl Solver {
-    fn new(parts: &[&mut Deformable], bodies: &[Body], step: Step) -> Self {
-        let mut starts = Vec::new();
-        let (mut masses, mut before, mut now) = (Vec::new(), Vec::new(), Vec::new());
-        for part in parts {
-            starts.push(before.len());
-            masses.extend(&part.masses);
-            before.extend(&part.places);
-            let pairs = part.places.iter().zip(&part.velocities);
-            now.extend(pairs.map(|(place, velocity)| place + velocity * step.length));
+    fn new(members: &mut Members, bodies: &[Body], step: Step) -> Self {
+        let mut all = Nodes::default();
+        for part in &members.parts {
+            let moved = part
+                .places
+                .iter()
+                .copied()
+                .zip(part.velocities.iter().copied());
+            all.add(moved, &part.masses, part.material.radius, step.length);
         }
-        let scale = scale(parts);
+        let mut rods = Vec::new();
+        let mut angles = Vec::new();
+        for rod in &mut members.rods {
+            rods.push(JoinedRod::new(
+                rod,
+                all.now.len(),
+                angles.len(),
+                step.length,
+            ));
+            let nodes = rod.now.places.iter().zip(&rod.now.velocities);
+            angles.extend(
+                nodes
+                    .clone()
+                    .map(|(place, velocity)| place.w + velocity.w * step.length),
+            );
+            let masses: Vec<f64> = rod.masses.iter().map(|mass| mass.x).collect();
+            let moved = nodes.map(|(place, velocity)| (place.xyz(), velocity.xyz()));
+            all.add(moved, &masses, rod.material.radius, step.length);
+        }
+        let scale = members.scale();
         let unknowns = bodies
             .iter()
             .map(|body| Unknown::new(body, scale, step.length));
-        let shortest = parts
-            .iter()
-            .map(|part| part.shortest)
-            .fold(f64::MAX, f64::min);
+        let shortest = members.shortest_edge();
+        let has_rods = !rods.is_empty();
         let mut solver = Self {
             step,
-            radii: parts.iter().map(|part| part.material.radius).collect(),
-            held: held(parts, &starts),
-            gradient: Vector::zeros(before.len(), bodies.len()),
+            radii: all.radii,
+            held: held(members, &all.starts),
+            gradient: Vector::zeros(all.now.len(), angles.len(), bodies.len()),
             unknowns: unknowns.collect(),
+            longest_way: if has_rods {
+                LONGEST_WAY * shortest
+            } else {
+                f64::INFINITY
+            },
             enough: TOLERANCE * shortest,
             limits: Vec::new(),
-            starts,
-            masses,
-            before,
-            now,
+            starts: all.starts,
+            masses: all.masses,
+            before: all.before,
+            now: all.now,
+            rods,
+            angles,
         };
-        solver.place_held(parts, bodies);
+        solver.place_held(members, bodies);
         solver
     }
 
     /// Puts nodes where what holds them is.
-    fn place_held(&mut self, parts: &[&mut Deformable], bodies: &[Body]) {
-        for (start, part) in self.starts.iter().zip(parts) {
-            for hold in &part.holds {
+    fn place_held(&mut self, members: &Members, bodies: &[Body]) {
+        for (start, holds) in self.starts.iter().zip(members.holds()) {
+            for hold in holds {
                 self.now[start + hold.node] = match hold.target {
                     Target::Place(place) => place,
                     Target::Body(body, lever) => {
@@ -112,66 +148,66 @@ impl Solver {
         }
     }
 
-    fn iterate(
-        &mut self,
-        parts: &mut [&mut Deformable],
-        bodies: &[Body],
-        contacts: &[Contact],
-    ) -> bool {
+    fn iterate(&mut self, members: &mut Members, bodies: &[Body], contacts: &[Contact]) -> Outcome {
+        let mut is_whole = true;
         for iteration in 0..MAX_ITERATIONS {
             if iteration < FRICTION_ITERATIONS {
                 self.find_limits(contacts, bodies);
             }
-            let (couplings, joined) = self.assemble(parts, bodies, contacts);
-            let Some(change) = self.change(parts, couplings, joined) else {
-                return false;
+            let (couplings, joined) = self.assemble(members, bodies, contacts);
+            let Some(change) = self.change(members, couplings, joined) else {
+                return Outcome::Lost;
             };
             let way = change.nodes.iter().map(V3::norm).fold(0.0, f64::max);
             if !way.is_finite() {
-                return false;
+                return Outcome::Lost;
             }
-            self.advance(&change, parts, bodies, contacts);
+            is_whole = way <= self.longest_way;
+            self.advance(&change, way, members, bodies, contacts);
             if way < self.enough {
                 break;
             }
         }
-        true
+        if is_whole {
+            Outcome::Found
+        } else {
+            Outcome::OnTheWay
+        }
     }
 
     fn change(
         &self,
-        parts: &[&mut Deformable],
+        members: &Members,
         couplings: Vec<Coupling>,
         joined: Vec<Joined>,
     ) -> Option<Vector> {
-        let parts = self.starts.iter().zip(parts);
+        let parts = self.starts.iter().zip(&members.parts);
         let parts = parts.map(|(start, part)| (*start, &part.blocks, &part.bending.matrix));
         let system = System {
             parts: parts.collect(),
+            rods: self.rods.iter().map(JoinedRod::matrix).collect(),
             couplings,
             joined,
             bodies: self.unknowns.iter().map(|body| body.resistance).collect(),
             held: &self.held,
         };
-        let mut right = self.gradient.clone();
-        right.nodes.iter_mut().for_each(|force| *force = -*force);
-        right.bodies.iter_mut().for_each(|force| *force = -*force);
-        system.solve(right)
+        system.solve(self.gradient.negated())
     }
 
     /// Goes along a change as far as the potential falls.
     fn advance(
         &mut self,
         change: &Vector,
-        parts: &[&mut Deformable],
+        way: f64,
+        members: &Members,
         bodies: &[Body],
         contacts: &[Contact],
     ) {
-        let start = self.potential(parts, bodies, contacts);
-        let mut part = 1.0;
+        let start = self.potential(members, bodies, contacts);
+        let mut part = (self.longest_way / way).min(1.0);
         self.apply(change, part);
         for _ in 0..MAX_HALVINGS {
-            if self.potential(parts, bodies, contacts) <= start + ROUNDING * start.abs() {
+            if self.potential(members, bodies, contacts) <= start + ROUNDING * start.abs() {
                 break;
             }
             part *= 0.5;
@@ -182,6 +218,9 @@ impl Solver {
     fn apply(&mut self, change: &Vector, part: f64) {
         for (place, change) in self.now.iter_mut().zip(&change.nodes) {
             *place += change * part;
+        }
+        for (angle, change) in self.angles.iter_mut().zip(&change.angles) {
+            *angle += change * part;
         }
         for (body, change) in self.unknowns.iter_mut().zip(&change.bodies) {
             body.moved += change * part;
@@ -214,17 +253,15 @@ impl Solver {
     }
 
     /// What the step minimises.
-    fn potential(&self, parts: &[&mut Deformable], bodies: &[Body], contacts: &[Contact]) -> f64 {
+    fn potential(&self, members: &Members, bodies: &[Body], contacts: &[Contact]) -> f64 {
         let mut sum: f64 = self.unknowns.iter().map(Unknown::potential).sum();
-        for (number, part) in parts.iter().enumerate() {
-            let places = self.places(number, part);
-            sum += self.inertia_potential(part, places)
-                + part.elastic_potential(places, part.material.damping / self.step.length);
-            if let Some(gas) = part.gas {
-                // Nothing goes on through where the volume would be none.
-                let potential = gas.potential(volume_of(&part.surface, places));
-                sum += potential.unwrap_or(f64::INFINITY);
-            }
+        for (number, part) in members.parts.iter().enumerate() {
+            sum += part.potential(self.places(number, part), self.step);
+        }
+        let known = self.known(bodies);
+        for (joined, rod) in self.rods.iter().zip(&members.rods) {
+            let trial = joined.trial(rod, &self.now, &self.angles);
+            sum += joined.potential(rod, &trial, self.step, &known);
         }
         let trial = self.trial(bodies);
         for (contact, limit) in contacts.iter().zip(&self.limits) {
@@ -233,37 +270,37 @@ impl Solver {
         sum
     }
 
-    /// The potential of inertia, weight and drag.
-    fn inertia_potential(&self, part: &Deformable, places: &[V3]) -> f64 {
-        let inverse = 1.0 / self.step.length;
-        let of_node = |node: usize| {
-            let moved = places[node] - part.places[node];
-            let square = moved * (0.5 * inverse * (inverse + part.material.drag));
-            let linear = square - part.velocities[node] * inverse - self.step.gravity;
-            part.masses[node] * moved.dot(&linear)
-        };
-        (0..part.len()).map(of_node).sum()
+    fn known<'a>(&'a self, bodies: &'a [Body]) -> Bodies<'a> {
+        Bodies {
+            all: bodies,
+            unknowns: &self.unknowns,
+        }
     }
 
     /// Finds the gradient and the matrices.
     fn assemble(
         &mut self,
-        parts: &mut [&mut Deformable],
+        members: &mut Members,
         bodies: &[Body],
         contacts: &[Contact],
     ) -> (Vec<Coupling>, Vec<Joined>) {
-        let mut gradient = Vector::zeros(self.now.len(), self.unknowns.len());
+        let mut gradient = Vector::zeros(self.now.len(), self.angles.len(), self.unknowns.len());
         for (sum, body) in gradient.bodies.iter_mut().zip(&self.unknowns) {
             *sum = body.resistance * (body.moved - body.free);
         }
         let mut joined = Vec::new();
-        for (number, part) in parts.iter_mut().enumerate() {
-            let start = self.starts[number];
-            let nodes = start..start + part.len();
-            let (places, gradient) = (&self.now[nodes.clone()], &mut gradient.nodes[nodes]);
-            part.assemble(places, part.material.damping / self.step.length, gradient);
-            add_inertia(part, places, self.step, gradient);
-            joined.extend(add_gas(part, start, places, gradient));
+        for (start, part) in self.starts.iter().zip(&mut members.parts) {
+            let nodes = *start..start + part.len();
+            let places = &self.now[nodes.clone()];
+            joined.extend(part.linearize(places, self.step, *start, &mut gradient.nodes[nodes]));
+        }
+        let known = Bodies {
+            all: bodies,
+            unknowns: &self.unknowns,
+        };
+        for (joined, rod) in self.rods.iter_mut().zip(&members.rods) {
+            let trial = joined.trial(rod, &self.now, &self.angles);
+            joined.linearize(rod, &trial, self.step, &known, &mut gradient);
         }
         let mut couplings = Vec::new();
         let trial = self.trial(bodies);
@@ -277,13 +314,35 @@ impl Solver {
         (couplings, joined)
     }
 
-    fn finish(
-        mut self,
-        parts: &mut [&mut Deformable],
-        bodies: &mut [Body],
-        contacts: &mut [Contact],
-    ) {
-        self.assemble(parts, bodies, contacts);
+    fn finish(mut self, members: &mut Members, bodies: &mut [Body], contacts: &mut [Contact]) {
+        self.assemble(members, bodies, contacts);
+        let mut impulses = self.contact_impulses(bodies, contacts);
+        let step = self.step.length;
+        for (number, part) in members.parts.iter_mut().enumerate() {
+            for hold in &mut part.holds {
+                hold.force = self.gradient.nodes[self.starts[number] + hold.node];
+            }
+            let start = self.starts[number];
+            part.move_to(&self.now[start..start + part.len()], step);
+        }
+        let known = Bodies {
+            all: bodies,
+            unknowns: &self.unknowns,
+        };
+        for (joined, rod) in self.rods.into_iter().zip(&mut members.rods) {
+            let trial = joined.trial(rod, &self.now, &self.angles);
+            joined.finish(rod, trial, step, &known, &self.gradient);
+        }
+        for hold in members.holds().flatten() {
+            add_hold_impulse(hold, step, &mut impulses);
+        }
+        for (body, impulse) in bodies.iter_mut().zip(impulses) {
+            body.impulse = impulse;
+        }
+    }
+
+    /// Writes the impulses of contacts; those on bodies.
+    fn contact_impulses(&self, bodies: &[Body], contacts: &mut [Contact]) -> Vec<Vector6<f64>> {
         let trial = self.trial(bodies);
         let mut impulses = vec![Vector6::zeros(); bodies.len()];
         for (contact, limit) in contacts.iter_mut().zip(&self.limits) {
@@ -298,19 +357,15 @@ impl Solver {
                 impulses[body] -= lever_map(&lever).transpose() * contact.touch.impulse;
             }
         }
-        for (number, part) in parts.iter_mut().enumerate() {
-            for hold in &mut part.holds {
-                hold.force = self.gradient.nodes[self.starts[number] + hold.node];
-                if let Target::Body(body, lever) = hold.target {
-                    let impulse = hold.force * self.step.length;
-                    impulses[body] -= lever_map(&lever).transpose() * impulse;
-                }
-            }
-            part.move_to(self.starts[number], &self.now, self.step.length);
-        }
-        for (body, impulse) in bodies.iter_mut().zip(impulses) {
-            body.impulse = impulse;
-        }
+        impulses
+    }
+}
+
+fn add_hold_impulse(hold: &Hold, step: f64, impulses: &mut [Vector6<f64>]) {
+    if let Target::Body(body, lever) = hold.target {
+        impulses[body] -= lever_map(&lever).transpose() * hold.force * step;
+        let mut torque = impulses[body].fixed_rows_mut::<3>(3);
+        torque -= hold.torque * step;
     }
 }
 
@@ -326,23 +381,51 @@ impl Coupling {
     }
 }
 
-impl Deformable {
-    /// The end of a step.
-    fn move_to(&mut self, start: usize, now: &[V3], step: f64) {
-        let ends = &now[start..start + self.len()];
-        for ((place, velocity), end) in self.places.iter_mut().zip(&mut self.velocities).zip(ends) {
-            *velocity = (end - *place) / step;
-            *place = *end;
+/// How a step ends.
+#[derive(Clone, Copy, PartialEq)]
+enum Outcome {
+    /// The equations are solved.
+    Found,
+    /// They are not, since nodes of rods would have to go too far: they come nearer, and rest there.
+    OnTheWay,
+    /// There is no solution in finite numbers.
+    Lost,
+}
+
+/// Nodes of all parts and rods.
+#[derive(Default)]
+struct Nodes {
+    starts: Vec<usize>,
+    masses: Vec<f64>,
+    radii: Vec<f64>,
+    before: Vec<V3>,
+    now: Vec<V3>,
+}
+
+impl Nodes {
+    /// Adds those of a part, with their places and velocities.
+    fn add(
+        &mut self,
+        moved: impl Iterator<Item = (V3, V3)>,
+        masses: &[f64],
+        radius: f64,
+        step: f64,
+    ) {
+        self.starts.push(self.before.len());
+        self.masses.extend(masses);
+        self.radii.push(radius);
+        for (place, velocity) in moved {
+            self.before.push(place);
+            self.now.push(place + velocity * step);
         }
-        self.tear_weakest();
     }
 }
 
 /// The nodes that are held; a node that is held twice goes with the first holder.
-fn held(parts: &[&mut Deformable], starts: &[usize]) -> Vec<Held> {
+fn held(members: &Members, starts: &[usize]) -> Vec<Held> {
     let mut all: Vec<Held> = Vec::new();
-    for (start, part) in starts.iter().zip(parts) {
-        for hold in &part.holds {
+    for (start, holds) in starts.iter().zip(members.holds()) {
+        for hold in holds {
             let body = match hold.target {
                 Target::Place(_) => None,
                 Target::Body(body, lever) => Some((body, lever)),
@@ -352,51 +435,4 @@ fn held(parts: &[&mut Deformable], starts: &[usize]) -> Vec<Held> {
         }
     }
     all
-}
-
-/// Mass of all parts, and their moment of inertia about an end.
-fn scale(parts: &[&mut Deformable]) -> [f64; 2] {
-    let of = |part: &&mut Deformable| {
-        let mass: f64 = part.masses.iter().sum();
-        let from = part.places[0];
-        let sizes = part
-            .places
-            .iter()
-            .map(|place| (place - from).norm_squared());
-        [
-            mass,
-            mass * sizes.fold(part.shortest * part.shortest, f64::max),
-        ]
-    };
-    parts.iter().map(of).fold([0.0; 2], |sum, [mass, moment]| {
-        [sum[0] + mass, sum[1] + moment]
-    })
-}
-
-fn add_inertia(part: &mut Deformable, places: &[V3], step: Step, gradient: &mut [V3]) {
-    let inverse = 1.0 / step.length;
-    for (node, mass) in part.masses.iter().enumerate() {
-        let velocity = (places[node] - part.places[node]) * inverse;
-        let rate = (velocity - part.velocities[node]) * inverse + velocity * part.material.drag
-            - step.gravity;
-        gradient[node] += rate * *mass;
-        let stiffness = mass * inverse * (inverse + part.material.drag);
-        part.blocks.add_to_diagonal(node, stiffness);
-    }
-}
-
-/// Adds the pressure of the gas within.
-fn add_gas(part: &Deformable, start: usize, places: &[V3], gradient: &mut [V3]) -> Option<Joined> {
-    let gas = part.gas?;
-    let volume = volume_of(&part.surface, places);
-    let along = volume_gradient(&part.surface, places);
-    let pressure = gas.pressure(volume);
-    for (sum, part) in gradient.iter_mut().zip(&along) {
-        *sum -= part * pressure;
-    }
-    Some(Joined {
-        start,
-        gradient: along,
-        stiffness: gas.stiffness(volume),
-    })
 }

@@ -5,34 +5,45 @@
 use nalgebra::{Cholesky, Const, Matrix3, Matrix3x6, Matrix6, Vector6};
 
 use super::blocks::Blocks;
+use super::joined_rod::RodMatrix;
 use super::sparse::Sparse;
 use crate::V3;
 use crate::assembly::lever_map;
+use crate::banded::Banded;
 
 /// Part of the residual that is left.
 const TOLERANCE: f64 = 1e-2;
 /// Most iterations of a solution.
 const MAX_ITERATIONS: usize = 400;
 
-/// A value for each unknown: three for each node, six for each body.
+/// A value for each unknown: three for each node, one for each angle of rods, six for each body.
 #[derive(Debug, Clone)]
 pub(super) struct Vector {
     pub nodes: Vec<V3>,
+    pub angles: Vec<f64>,
     pub bodies: Vec<Vector6<f64>>,
 }
 
 impl Vector {
-    pub(super) fn zeros(nodes: usize, bodies: usize) -> Self {
+    pub(super) fn zeros(nodes: usize, angles: usize, bodies: usize) -> Self {
         Self {
             nodes: vec![V3::zeros(); nodes],
+            angles: vec![0.0; angles],
             bodies: vec![Vector6::zeros(); bodies],
         }
     }
 
+    fn zeros_like(&self) -> Self {
+        Self::zeros(self.nodes.len(), self.angles.len(), self.bodies.len())
+    }
+
     fn dot(&self, other: &Self) -> f64 {
         let nodes = self.nodes.iter().zip(&other.nodes);
+        let angles = self.angles.iter().zip(&other.angles);
         let bodies = self.bodies.iter().zip(&other.bodies);
-        nodes.map(|(a, b)| a.dot(b)).sum::<f64>() + bodies.map(|(a, b)| a.dot(b)).sum::<f64>()
+        nodes.map(|(a, b)| a.dot(b)).sum::<f64>()
+            + angles.map(|(a, b)| a * b).sum::<f64>()
+            + bodies.map(|(a, b)| a.dot(b)).sum::<f64>()
     }
 
     /// This times one factor and another vector times another factor.
@@ -40,9 +51,19 @@ impl Vector {
         for (a, b) in self.nodes.iter_mut().zip(&other.nodes) {
             *a = *a * own + *b * factor;
         }
+        for (a, b) in self.angles.iter_mut().zip(&other.angles) {
+            *a = *a * own + *b * factor;
+        }
         for (a, b) in self.bodies.iter_mut().zip(&other.bodies) {
             *a = *a * own + *b * factor;
         }
+    }
+
+    /// The vector that points the other way.
+    pub(super) fn negated(&self) -> Self {
+        let mut negated = self.zeros_like();
+        negated.combine(1.0, self, -1.0);
+        negated
     }
 }
 
@@ -72,6 +93,8 @@ pub(super) struct Joined {
 pub(super) struct System<'a> {
     /// For each part where its nodes begin, and its matrices: of blocks, and of numbers for all directions.
     pub parts: Vec<(usize, &'a Blocks, &'a Sparse)>,
+    /// Their nodes come after those of all parts.
+    pub rods: Vec<RodMatrix<'a>>,
     pub couplings: Vec<Coupling>,
     pub joined: Vec<Joined>,
     pub bodies: Vec<Matrix6<f64>>,
@@ -81,6 +104,8 @@ pub(super) struct System<'a> {
 /// Inverses of the blocks on the diagonal, as factors.
 struct Preconditioner {
     nodes: Vec<Matrix3<f64>>,
+    /// The whole matrices of rods, as factors.
+    rods: Vec<Banded>,
     bodies: Vec<Cholesky<f64, Const<6>>>,
 }
 
@@ -89,9 +114,8 @@ impl System<'_> {
     pub(super) fn solve(&self, mut residual: Vector) -> Option<Vector> {
         self.contract(&mut residual);
         let preconditioner = self.preconditioner()?;
-        let (nodes, bodies) = (residual.nodes.len(), residual.bodies.len());
-        let mut solution = Vector::zeros(nodes, bodies);
-        let mut product = Vector::zeros(nodes, bodies);
+        let mut solution = residual.zeros_like();
+        let mut product = residual.zeros_like();
         let mut scaled = self.scaled(&preconditioner, &residual);
         let mut direction = scaled.clone();
         let mut size = residual.dot(&scaled);
@@ -148,6 +172,9 @@ impl System<'_> {
         for (body, matrix) in self.bodies.iter().enumerate() {
             product.bodies[body] = matrix * vector.bodies[body];
         }
+        for rod in &self.rods {
+            rod.multiply(vector, product);
+        }
         for coupling in &self.couplings {
             coupling.multiply(vector, product);
         }
@@ -170,7 +197,11 @@ impl System<'_> {
                     .map(|(node, own)| blocks.diagonal(node) + own),
             );
         }
+        nodes.extend(self.rods.iter().flat_map(RodMatrix::diagonals));
         let mut bodies = self.bodies.clone();
+        for rod in &self.rods {
+            rod.add_to_bodies(&mut bodies);
+        }
         for coupling in &self.couplings {
             for (node, weight) in coupling.nodes {
                 nodes[node] += coupling.stiffness * (weight * weight);
@@ -186,7 +217,11 @@ impl System<'_> {
             }
         }
         let inverse = |block: Matrix3<f64>| block.cholesky().map(|factors| factors.inverse());
+        let rods = self.rods.iter();
         Some(Preconditioner {
+            rods: rods
+                .map(|rod| rod.factors(&self.couplings, self.held))
+                .collect::<Option<_>>()?,
             nodes: nodes.into_iter().map(inverse).collect::<Option<_>>()?,
             bodies: bodies
                 .into_iter()
@@ -198,10 +233,15 @@ impl System<'_> {
     fn scaled(&self, preconditioner: &Preconditioner, vector: &Vector) -> Vector {
         let nodes = preconditioner.nodes.iter().zip(&vector.nodes);
         let bodies = preconditioner.bodies.iter().zip(&vector.bodies);
-        Vector {
+        let mut scaled = Vector {
             nodes: nodes.map(|(inverse, part)| inverse * part).collect(),
+            angles: vec![0.0; vector.angles.len()],
             bodies: bodies.map(|(factors, part)| factors.solve(part)).collect(),
+        };
+        for (rod, factors) in self.rods.iter().zip(&preconditioner.rods) {
+            rod.solve(factors, vector, &mut scaled);
         }
+        scaled
     }
 }
 
