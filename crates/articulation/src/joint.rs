@@ -254,7 +254,7 @@ impl Joint {
     }
 
     /// Velocity along the free axis of a joint with one degree of freedom.
-    fn axis_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
+    pub(crate) fn axis_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
         self.axis_velocity_of(row, |body| bodies[body].velocity)
     }
 

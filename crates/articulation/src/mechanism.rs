@@ -181,6 +181,14 @@ impl Mechanism {
         self.bodies.iter().map(|body| &body.velocity)
     }
 
+    /// The velocities along the free axes of the joints at the end of the step, rad/s or m/s; 0 of joints that have none.
+    pub fn axis_velocities(&self) -> impl Iterator<Item = f64> {
+        let along = |joint: &Joint| Some(joint.axis_velocity(joint.axis?.row, &self.bodies));
+        self.joints
+            .iter()
+            .map(move |joint| along(joint).unwrap_or(0.0))
+    }
+
     /// Forces and torques of the joints and their motors: before [`correct_positions`](Self::correct_positions) those that a body needs which goes straight on,
     /// after it those by which it was kept on its path.
     pub fn joint_loads(&self) -> impl Iterator<Item = JointLoad> {

@@ -5,7 +5,7 @@
 use articulation::Passive;
 
 use super::motors::Motion;
-use scene::joint::{Actuation, Actuator, ActuatorKind, Joint};
+use scene::joint::{Actuation, Actuator, ActuatorKind, Actuators, Joint};
 
 /// What acts along the axis of a joint in a sub-step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -40,9 +40,28 @@ pub(super) fn actuated(joint: &Joint, actuation: &Actuation, now: Motion) -> Ord
             force: None,
         };
     }
-    let (mut passive, mut sum) = (passive, 0.0);
-    for actuator in actuation.actuators.iter() {
-        let spring = Spring::of(actuator, joint);
+    let targets = [
+        joint.target_force,
+        joint.target_position,
+        joint.target_velocity,
+    ];
+    let (passive, force) = acting(passive, &actuation.actuators, targets, now);
+    Orders {
+        passive,
+        force: Some(force),
+    }
+}
+
+/// What acts along an axis with its actuators, and their force at the begin of the sub-step. `targets`: what they are told, a force, a position and a velocity.
+pub(super) fn acting(
+    mut passive: Passive,
+    actuators: &Actuators,
+    targets: [f64; 3],
+    now: Motion,
+) -> (Passive, f64) {
+    let mut sum = 0.0;
+    for actuator in actuators.iter() {
+        let spring = Spring::of(actuator, targets);
         let free = spring.force(now);
         let force = actuator.limited(free);
         sum += force;
@@ -52,10 +71,7 @@ pub(super) fn actuated(joint: &Joint, actuation: &Actuation, now: Motion) -> Ord
             pushed(passive, force)
         };
     }
-    Orders {
-        passive,
-        force: Some(sum),
-    }
+    (passive, sum)
 }
 
 /// The force of an actuator: `push + stiffness (rest - position) - damping velocity`.
@@ -67,7 +83,7 @@ struct Spring {
 }
 
 impl Spring {
-    fn of(actuator: &Actuator, joint: &Joint) -> Self {
+    fn of(actuator: &Actuator, [force, position, velocity]: [f64; 3]) -> Self {
         let Actuator {
             stiffness,
             damping,
@@ -76,9 +92,9 @@ impl Spring {
         } = *actuator;
         let (push, rest) = match actuator.kind {
             ActuatorKind::None => (0.0, 0.0),
-            ActuatorKind::Force => (bias + joint.target_force, 0.0),
-            ActuatorKind::Position => (bias, joint.target_position),
-            ActuatorKind::Velocity => (bias + damping * joint.target_velocity, 0.0),
+            ActuatorKind::Force => (bias + force, 0.0),
+            ActuatorKind::Position => (bias, position),
+            ActuatorKind::Velocity => (bias + damping * velocity, 0.0),
         };
         Self {
             push,
@@ -121,7 +137,7 @@ fn pushed(passive: Passive, force: f64) -> Passive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::joint::{Actuators, Control, JointMode, JointType};
+    use scene::joint::{Control, JointMode, JointType};
 
     const NOW: Motion = Motion {
         position: 0.5,

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
@@ -12,6 +13,8 @@ use rapier3d_f64::prelude::{
 use super::bodies::Tag;
 use super::convert::from_vector;
 use super::flat_faces;
+use super::moving_surfaces::MovingSurfaces;
+use super::plan::PairRule;
 use super::world::{ALL_HOOKS, Known, World, parts_of_impulse};
 use scene::Handle;
 
@@ -72,8 +75,20 @@ impl Verdicts {
         }
     }
 
+    /// Adds what shapes say of pairs, which counts whatever masks and scripts say.
+    pub(super) fn add_rules(&mut self, rules: &[PairRule]) {
+        for PairRule { shapes, response } in rules {
+            let [a, b] = *shapes;
+            self.special.insert((a, b), *response);
+            self.special.insert((b, a), *response);
+        }
+    }
+
     /// The verdict about a pair; None when scripts were not asked.
     fn find(&mut self, pair: (Handle, Handle)) -> Option<ContactResponse> {
+        if let Some(response) = self.special.get(&pair) {
+            return Some(*response);
+        }
         if !self.is_sorted {
             self.asked.sort_unstable_by_key(rank);
             self.is_sorted = true;
@@ -102,12 +117,13 @@ impl Verdicts {
             .unwrap_or(ContactResponse::Default)
     }
 
-    /// How a pair responds: masks first, then scripts.
+    /// How a pair responds: as shapes or scripts say of it, else by the masks.
     pub(super) fn response(&self, a: Tag, b: Tag) -> ContactResponse {
-        if !masks_overlap(a, b) {
-            return ContactResponse::NoCollision;
+        match self.special.get(&(a.shape, b.shape)) {
+            Some(response) => *response,
+            None if masks_overlap(a, b) => ContactResponse::Default,
+            None => ContactResponse::NoCollision,
         }
-        self.special_or_default((a.shape, b.shape))
     }
 }
 
@@ -122,6 +138,7 @@ pub(super) struct Rules<'a> {
     verdicts: RefCell<Verdicts>,
     /// Pairs that mechanisms solve, rising.
     apart: &'a [ColliderPair],
+    surfaces: Arc<MovingSurfaces>,
 }
 
 impl<'a> Rules<'a> {
@@ -129,11 +146,13 @@ impl<'a> Rules<'a> {
         callback: Option<ContactCallback<'a>>,
         verdicts: Verdicts,
         apart: &'a [ColliderPair],
+        surfaces: Arc<MovingSurfaces>,
     ) -> Self {
         Self {
             callback,
             verdicts: RefCell::new(verdicts),
             apart,
+            surfaces,
         }
     }
 
@@ -190,6 +209,8 @@ impl PhysicsHooks for Rules<'_> {
         }
         if *contact.friction == 0.0 {
             flat_faces::level(context);
+        } else {
+            self.surfaces.carry(context);
         }
     }
 }
@@ -294,7 +315,8 @@ fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Ve
         }
     };
     apart.iter().copied().for_each(&mut ask);
-    if !world.known.is_special && verdicts.special.is_empty() {
+    let surfaces = &world.surfaces;
+    if !world.known.is_special && verdicts.special.is_empty() && surfaces.are_none() {
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {
@@ -302,7 +324,8 @@ fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Ve
             continue;
         };
         let response = verdicts.response(Tag::unpack(first.tag), Tag::unpack(second.tag));
-        if response != ContactResponse::Default || first.friction(second) == 0.0 {
+        let is_carried = surfaces.concern([first.tag, second.tag]);
+        if response != ContactResponse::Default || first.friction(second) == 0.0 || is_carried {
             ask(pair_of([pair.collider1, pair.collider2]));
         }
     }

@@ -11,7 +11,7 @@
 //! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
 //! - `soft_bodies`: ropes, cloths and volumes, moved by the crate `soft` before the mechanisms are solved.
 //! - `particles`: small spheres, moved after the bodies.
-//! - `adhesion`, `tendons`: forces between bodies that MuJoCo's parameters ask for.
+//! - `adhesion`, `tendons`: forces between bodies that MuJoCo's parameters ask for; `moving_surfaces`: bodies that carry along as belts do.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
@@ -32,6 +32,7 @@ mod links;
 mod load;
 mod mechanisms;
 mod motors;
+mod moving_surfaces;
 mod near;
 mod particles;
 mod plan;
@@ -45,6 +46,7 @@ mod world;
 
 use std::collections::BTreeSet;
 use std::num::NonZero;
+use std::sync::Arc;
 
 pub use bodies::FormMaker;
 use bodies::{Bodies, Forms};
@@ -56,8 +58,9 @@ use links::Links;
 use mechanisms::Mechanisms;
 use mechanisms::workers::Workers;
 use motors::Motion;
+use moving_surfaces::MovingSurfaces;
 use particles::Particles;
-use plan::Plan;
+use plan::{PairRule, Plan};
 pub use report::Trigger;
 use soft_bodies::SoftBodies;
 pub use sub_step::{ScriptAccess, SubStep};
@@ -94,6 +97,8 @@ pub struct Dynamics {
     /// Whether bodies that adhere have been pulled in this sub-step.
     have_adhered: bool,
     tendons: Tendons,
+    /// What shapes say of pairs.
+    pairs: Vec<PairRule>,
     /// For which the plan was made.
     surrounding: Surrounding,
     contacts: ContactLog,
@@ -243,16 +248,20 @@ impl Dynamics {
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
         contacts::note_colliders(world);
+        world.surfaces = Arc::new(MovingSurfaces::of(&self.bodies));
         let_sleep(&self.bodies, &self.links, world);
         self.soft_bodies
             .apply_plan(plan.soft, &self.bodies, world, scene);
-        self.tendons.apply_plan(plan.tendons, &self.bodies, world);
+        self.tendons
+            .apply_plan(plan.tendons, &self.bodies, &self.links, world);
+        self.pairs = plan.pairs;
         self.contacts.forget_resting();
         self.is_stepped = false;
         self.mechanisms.rebuild(
             &mut self.links,
             &scene.all_breadth_first(),
             &self.bodies,
+            &mut self.tendons,
             world,
         );
         // Changes made here need no new plan.
@@ -289,7 +298,9 @@ impl Dynamics {
             call.step,
             world,
         );
-        let engine = scene.settings().dynamics.engine.engine;
+        self.tendons.read_targets(scene);
+        let settings = &scene.settings().dynamics;
+        let (engine, surrounding) = (settings.engine.engine, settings.surrounding());
         let (mut requests, mut dependent) = (Vec::new(), Vec::new());
         for (handle, link) in self.links.iter_mut() {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else {
@@ -297,6 +308,11 @@ impl Dynamics {
             };
             if joint.mode == JointMode::Dependent {
                 dependent.push((handle, joint));
+                continue;
+            }
+            if !surrounding.has_motors {
+                link.passive = actuators::beside(link.actuation);
+                link.set_drive(None, world);
                 continue;
             }
             if joint.control.calls_script() {
@@ -315,6 +331,7 @@ impl Dynamics {
             };
             link.passive = actuators::beside(link.actuation);
             let drive = master
+                .filter(|_| surrounding.has_equalities)
                 .and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
             link.set_drive(drive, world);
         }
@@ -376,7 +393,8 @@ fn detect_new(bodies: &Bodies, mechanisms: &Mechanisms, world: &mut World, gravi
     let is_new = std::mem::take(&mut world.has_new_colliders);
     let mut moving = bodies.iter().filter(|(_, body)| body.build.dynamic);
     if is_new && moving.any(|(shape, _)| !mechanisms.contains(shape)) {
-        let rules = contacts::Rules::new(None, Verdicts::default(), &[]);
+        let rules =
+            contacts::Rules::new(None, Verdicts::default(), &[], Arc::clone(&world.surfaces));
         world.detect_collisions(convert::to_vector(gravity), &rules);
     }
 }

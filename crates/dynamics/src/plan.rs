@@ -3,6 +3,7 @@
 //! A function of the scene alone, without rapier. A plan is recomputed when its inputs change, and compared with the bodies and
 //! constraints that exist.
 
+mod pairs;
 mod tendon;
 
 use std::collections::BTreeMap;
@@ -12,6 +13,7 @@ use articulation::JointKind;
 use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
+pub(super) use pairs::PairRule;
 use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
@@ -34,8 +36,9 @@ pub(super) struct Plan {
     pub links: BTreeMap<Handle, LinkPlan>,
     /// What is soft, base-to-tip.
     pub soft: Vec<(Handle, SoftPlan)>,
-    /// Tendons between dummies.
     pub tendons: Vec<TendonPlan>,
+    /// What shapes say of pairs.
+    pub pairs: Vec<PairRule>,
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
 }
@@ -192,6 +195,7 @@ impl Plan {
             bodies,
             soft: soft.collect(),
             tendons: Vec::new(),
+            pairs: Vec::new(),
             links: BTreeMap::new(),
             far,
         };
@@ -202,6 +206,7 @@ impl Plan {
             .collect();
         let tendons = order.iter().map(|&handle| tendon(scene, handle, &roles));
         plan.tendons = tendons.flatten().collect();
+        plan.pairs = pairs::rules(scene, &roles);
         for handle in order {
             if let Some(link) = link(scene, handle, &roles) {
                 plan.links.insert(handle, link);
@@ -234,7 +239,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         uid: object.uid(),
         dynamic: dynamic_tree && !dynamics.is_static && !frozen.contains(handle),
         respondable: respondable_tree && dynamics.respondable,
-        mass: shape.mass.with_positive_moments(),
+        mass: bounded(scene, &shape.mass).with_positive_moments(),
         parts: shape.parts.iter().map(PartForm::of).collect(),
     };
     Some(BodyPlan {
@@ -242,6 +247,13 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         surface: among(scene, object, surface(scene, handle, shape)),
         asleep: dynamics.start_asleep,
     })
+}
+
+/// The mass of a body as MuJoCo's parameters of the scene bound it.
+fn bounded(scene: &Scene, mass: &MassProperties) -> MassProperties {
+    let surrounding = scene.settings().dynamics.surrounding();
+    let [least_mass, least_moment] = surrounding.least;
+    mass.bounded(least_mass, least_moment, surrounding.balances_inertia)
 }
 
 /// The surface of a body with what surrounds it, and with what MuJoCo's parameters say of it.
@@ -390,7 +402,8 @@ fn closing_children<'a>(scene: &'a Scene, link: &'a Object) -> Vec<&'a Object> {
 fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
     let data = dummy.dummy().ok()?;
     let partner = scene.object(data.link?).ok()?;
-    let closes = data.link_type == LinkType::LoopClosure
+    let closes = scene.settings().dynamics.surrounding().has_equalities
+        && data.link_type == LinkType::LoopClosure
         && dummy.children().is_empty()
         && partner.children().is_empty();
     closes.then_some(partner)

@@ -50,8 +50,9 @@ impl Dynamics {
         }
         match (is_integrated, is_known) {
             (true, true) => {}
-            (true, false) => self.mechanisms.look_around(&world),
-            (false, _) => self.mechanisms.forget_surroundings(),
+            // Masks do not say all of pairs.
+            (true, false) if self.pairs.is_empty() => self.mechanisms.look_around(&world),
+            _ => self.mechanisms.forget_surroundings(),
         }
         if is_integrated {
             self.mechanisms.apply_positions(&mut self.links, &mut world);

@@ -1,5 +1,7 @@
 //! A sub-step: forces, soft bodies and mechanisms, then what is left to the engine.
 
+use std::sync::Arc;
+
 use rapier3d_f64::math::Vector;
 use scene::{Handle, Scene};
 
@@ -41,7 +43,9 @@ impl SubStep {
         if self.is_known {
             return;
         }
-        let rules = contacts::Rules::new(callback, std::mem::take(&mut self.verdicts), &self.apart);
+        let verdicts = std::mem::take(&mut self.verdicts);
+        let surfaces = Arc::clone(&self.world.surfaces);
+        let rules = contacts::Rules::new(callback, verdicts, &self.apart, surfaces);
         if self.is_integrated {
             self.world.detect_collisions(self.gravity, &rules);
         } else {
@@ -57,9 +61,10 @@ impl Dynamics {
         scene: &Scene,
         sub_step: u32,
         script_access: ScriptAccess,
-        verdicts: Verdicts,
+        mut verdicts: Verdicts,
     ) -> Option<SubStep> {
         let mut world = self.world.take()?;
+        verdicts.add_rules(&self.pairs);
         let call = self.call?;
         let gravity = gravity_of(scene);
         // Nobody else can have changed the forces since the first sub-step.
@@ -74,7 +79,7 @@ impl Dynamics {
         }
         self.particles.push(&mut world, call.step);
         self.tendons
-            .pull(&self.bodies, &mut world, gravity, call.step);
+            .pull(&self.bodies, &self.links, &mut world, gravity, call.step);
         self.have_adhered = adhesion::pull(&self.bodies, &mut world, &verdicts);
         for link in self.links.values_mut() {
             link.before_step(&world);
@@ -155,8 +160,10 @@ impl Dynamics {
         verdicts: &Verdicts,
     ) {
         let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
-        self.mechanisms
-            .solve(links, bodies, world, gravity, step, verdicts, workers);
+        let tendons = &self.tendons;
+        self.mechanisms.solve(
+            links, bodies, world, gravity, step, verdicts, tendons, workers,
+        );
     }
 
     /// Whether bodies of mechanisms get the velocities with which the soft bodies were solved. They do not where a motor has come to its limit, or a contact opens.

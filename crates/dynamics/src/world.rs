@@ -4,6 +4,8 @@
 //! is connected to them, are solved in parts of it: only then are contacts stiff, and independent of the masses above each other; and meshes on
 //! the ground do not creep, as they would in one part.
 
+use std::sync::Arc;
+
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
     ActiveHooks, BroadPhaseBvh, CCDSolver, CoefficientCombineRule, Collider, ColliderHandle,
@@ -14,6 +16,7 @@ use rapier3d_f64::prelude::{
 };
 
 use super::free_rotation;
+use super::moving_surfaces::MovingSurfaces;
 
 /// Number of solver steps into which a sub-step is divided for bodies in contact.
 pub(super) const CONTACT_SUBSTEPS: usize = 4;
@@ -57,6 +60,8 @@ pub(super) struct World {
     pub has_new_colliders: bool,
     /// The colliders of the present plan.
     pub known: Known,
+    /// The surfaces that move along bodies of the present plan.
+    pub surfaces: Arc<MovingSurfaces>,
 }
 
 /// What only changes with the plan, so that it need not be looked up for each pair of colliders in each sub-step.
@@ -147,6 +152,7 @@ impl Default for World {
             gravity: None,
             has_new_colliders: false,
             known: Known::default(),
+            surfaces: Arc::default(),
         }
     }
 }

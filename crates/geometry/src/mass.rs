@@ -190,6 +190,36 @@ impl MassProperties {
     }
 }
 
+impl MassProperties {
+    /// The body as MuJoCo's compiler has it: moments (kg m2) that no body has, of which one is larger than the other two together, all become their mean if they are to be balanced; mass (kg) and moments
+    /// are then no smaller than the bounds. Nothing changes where nothing has to.
+    pub fn bounded(&self, least_mass: f64, least_moment: f64, is_balanced: bool) -> Self {
+        let (axes, per_mass) = self.principal_axes();
+        let moments = per_mass.map(|moment| moment * self.mass);
+        let [low, middle, high] = sorted(moments);
+        let mut wanted = moments;
+        if is_balanced && low + middle < high {
+            wanted = [(low + middle + high) / 3.0; 3];
+        }
+        wanted = wanted.map(|moment| moment.max(least_moment));
+        let mass = self.mass.max(least_mass);
+        if (mass, wanted) == (self.mass, moments) || !mass.is_finite() {
+            return *self;
+        }
+        let per_mass = wanted.map(|moment| moment / mass);
+        Self {
+            mass,
+            inertia: turned(&Matrix3::from_diagonal(&per_mass.into()), &axes),
+            ..*self
+        }
+    }
+}
+
+fn sorted(mut numbers: [f64; 3]) -> [f64; 3] {
+    numbers.sort_by(f64::total_cmp);
+    numbers
+}
+
 /// `sim.computeMassAndInertia` for a density in kg/m3: exact for cuboids, balls, ellipsoids, cylinders and
 /// capsules that physics knows, else the solid convex hull of the `vertices` (m, shape frame).
 ///

@@ -1,6 +1,9 @@
 //! A mechanism with what it stands for in the scene and in rapier: reads the state of the bodies, solves, applies what was found. Only what
 //! reads and applies needs the world, so that mechanisms can be solved at the same time.
 
+pub(super) mod builder;
+mod tendons;
+
 use std::collections::BTreeMap;
 
 use articulation::{BodyMotion, BodyState, Contact, JointState, Mechanism};
@@ -19,6 +22,7 @@ use crate::free_rotation::LINKED;
 use crate::links::Links;
 use crate::world::World;
 use scene::Handle;
+use tendons::Strand;
 
 /// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
 /// its way along the chain.
@@ -43,6 +47,8 @@ pub(super) struct Linked {
     /// Whether rapier solves the links as well.
     pub shared: bool,
     input: Input,
+    /// The tendons of this sub-step.
+    strands: Vec<Strand>,
     /// Whether the forces of this sub-step were found.
     pub is_solved: bool,
     corrected: Vec<Option<BodyMotion>>,
@@ -131,6 +137,7 @@ impl Linked {
             bases,
             shared: false,
             input: Input::default(),
+            strands: Vec::new(),
             is_solved: false,
             corrected: Vec::new(),
         }
@@ -147,6 +154,7 @@ impl Linked {
             bases: BTreeMap::new(),
             shared: false,
             input: Input::default(),
+            strands: Vec::new(),
             is_solved: false,
             corrected: Vec::new(),
         }
@@ -233,6 +241,7 @@ impl Linked {
         known.clear();
         known.extend(contacts);
         pushes.clear();
+        self.strands.clear();
         for body in self.bodies.iter_mut().chain(&mut self.guests) {
             let Some(rigid) = world.bodies.get(body.rigid) else {
                 continue;
@@ -280,22 +289,35 @@ impl Linked {
 
     /// The same with one more impulse on a body.
     fn find_forces(&mut self, probe: Option<(usize, Vector6<f64>)>) {
+        if self.strands.is_empty() {
+            self.solve_once(probe);
+        } else {
+            self.solve_with_tendons(probe);
+        }
+    }
+
+    /// Finds the forces of joints and contacts, for the forces that tendons have.
+    fn solve_once(&mut self, probe: Option<(usize, Vector6<f64>)>) {
+        let joints = self.joints_with_tendons();
+        let loads: Vec<(usize, Vector6<f64>)> = self.tendon_loads().collect();
         let Input {
             bodies,
-            joints,
+            joints: without_tendons,
             contacts,
             pushes,
             gravity,
             step,
             ..
         } = &self.input;
+        let joints = joints.as_ref().unwrap_or(without_tendons);
         self.is_solved = bodies.len() == self.bodies.len() + self.guests.len();
         if self.is_solved {
             self.mechanism.begin(bodies, joints, *gravity, *step);
             pushes.iter().for_each(|&(body, impulse, point)| {
                 self.mechanism.add_impulse(body, impulse, point);
             });
-            if let Some((body, impulse)) = probe {
+            let pulls = loads.iter().map(|(body, load)| (*body, load * *step));
+            for (body, impulse) in pulls.chain(probe) {
                 self.mechanism.add_spatial_impulse(body, &impulse);
             }
             self.mechanism.set_contacts(contacts);
@@ -387,6 +409,12 @@ impl Linked {
             .zip(self.mechanism.body_loads())
         {
             if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
+                rigid.add_force(to_vector(linear(&load)), wakes);
+                rigid.add_torque(to_vector(angular(&load)), wakes);
+            }
+        }
+        for (body, load) in self.tendon_loads() {
+            if let Some(rigid) = world.bodies.get_mut(self.bodies[body].rigid) {
                 rigid.add_force(to_vector(linear(&load)), wakes);
                 rigid.add_torque(to_vector(angular(&load)), wakes);
             }

@@ -19,12 +19,11 @@ pub(super) mod points;
 mod reach;
 mod search;
 mod surroundings;
+mod tendons;
 pub(super) mod workers;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use articulation::{BodyProperties, JointProperties, Mechanism};
-use geometry::partition;
 use nalgebra::{Matrix6, Vector6};
 use rapier3d_f64::prelude::{Collider, RigidBody};
 
@@ -32,14 +31,14 @@ use crate::bodies::{Bodies, Tag};
 use crate::contacts;
 use crate::contacts::Verdicts;
 use crate::links::Links;
-use crate::plan::LinkPlan;
+use crate::tendons::Tendons;
 use crate::world::{PREDICTION_DISTANCE, World};
 use exact_contacts::ExactContacts;
+use linked::builder::{Builder, builders};
 use linked::{Linked, divide, share};
-use linked_shape::{LinkedShape, properties};
+use linked_shape::LinkedShape;
 use loose::{Loose, Start};
 use scene::Handle;
-use scene::joint::JointSolver;
 use search::Conditions;
 use surroundings::Surroundings;
 use workers::Workers;
@@ -74,19 +73,6 @@ pub(super) struct Mechanisms {
     are_alone: bool,
 }
 
-/// A mechanism in the making.
-#[derive(Default)]
-struct Builder {
-    bodies: Vec<BodyProperties>,
-    shapes: Vec<LinkedShape>,
-    places: BTreeMap<Handle, usize>,
-    joints: Vec<JointProperties>,
-    links: Vec<usize>,
-    /// Whether a joint selects rapier's joints, and whether there is a screw, which rapier lacks.
-    asks_rapier: bool,
-    has_screw: bool,
-}
-
 impl Mechanisms {
     /// Builds the systems for the links; mechanisms with a joint that selects rapier are left to rapier. `order`: base to tip.
     pub(super) fn rebuild(
@@ -94,12 +80,17 @@ impl Mechanisms {
         links: &mut Links,
         order: &[Handle],
         bodies: &Bodies,
+        tendons: &mut Tendons,
         world: &mut World,
     ) {
         let has_link = |handle: &&Handle| links.contains(**handle);
         self.order = order.iter().filter(has_link).copied().collect();
         self.joined.clear();
+        self.join_by_tendons(links, tendons);
         self.build(links, bodies, world);
+        for tendon in tendons.iter_mut() {
+            tendon.is_linked = self.host_of(tendon, links, bodies).is_some();
+        }
     }
 
     fn build(&mut self, links: &mut Links, bodies: &Bodies, world: &mut World) {
@@ -170,6 +161,7 @@ impl Mechanisms {
         gravity: [f64; 3],
         step: f64,
         verdicts: &Verdicts,
+        tendons: &Tendons,
         workers: &mut Workers,
     ) {
         self.contacts.clear();
@@ -183,6 +175,7 @@ impl Mechanisms {
             linked.read(links, world, gravity, step, self.contacts.of(number));
         }
         self.add_contact_impulses(world);
+        self.add_tendons(tendons, links, bodies, world);
         self.for_each(workers, Linked::solve);
         for (number, linked) in self.all.iter_mut().enumerate() {
             if linked.is_solved {
@@ -402,92 +395,5 @@ impl Mechanisms {
             linked.apply_positions(world);
             linked.correct_loads(links);
         }
-    }
-}
-
-/// A builder for each set of links that hang together by bodies that move, or whose bodies are joined. Links at the tips come first, which are eliminated first.
-fn builders(
-    links: &Links,
-    order: &[Handle],
-    joined: &BTreeSet<[Handle; 2]>,
-    bodies: &Bodies,
-) -> Vec<Builder> {
-    let plan = |&handle: &Handle| {
-        links
-            .place(handle)
-            .map(|place| (place, &links.at(place).plan))
-    };
-    let plans: Vec<(usize, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
-    let moving = |shape: Handle| {
-        bodies
-            .get(shape)
-            .filter(|body| body.build.dynamic)
-            .map(|_| shape)
-    };
-    let ends =
-        |(_, plan): &(usize, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
-    let of_plans = plans.iter().map(|plan| ends(plan).collect::<Vec<_>>());
-    let of_joined = joined.iter().map(|ends| ends.to_vec());
-    let numbers = partition(of_plans.chain(of_joined));
-    let mut builders = Vec::new();
-    builders.resize_with(
-        numbers.iter().max().map_or(0, |last| last + 1),
-        Builder::default,
-    );
-    for ((place, plan), number) in plans.into_iter().zip(numbers) {
-        builders[number].add(place, plan, bodies);
-    }
-    builders
-}
-
-impl Builder {
-    fn add(&mut self, link: usize, plan: &LinkPlan, bodies: &Bodies) {
-        self.asks_rapier |= plan.solver == JointSolver::Impulse;
-        self.has_screw |= plan.pitch != 0.0;
-        if let (Some(first), Some(second)) = (
-            self.body(plan.first, bodies),
-            self.body(plan.second, bodies),
-        ) {
-            let LinkPlan {
-                kind,
-                base,
-                tip,
-                pitch,
-                ..
-            } = *plan;
-            self.joints.push(JointProperties {
-                kind: kind.joint(),
-                bodies: [first, second],
-                base,
-                tip,
-                pitch,
-            });
-            self.links.push(link);
-        }
-    }
-
-    /// Index of the body of a shape.
-    fn body(&mut self, shape: Handle, bodies: &Bodies) -> Option<usize> {
-        let body = bodies.get(shape)?;
-        Some(*self.places.entry(shape).or_insert_with(|| {
-            self.bodies.push(properties(body));
-            self.shapes.push(LinkedShape::new(shape, body));
-            self.bodies.len() - 1
-        }))
-    }
-
-    /// Whether the links are left to rapier alone.
-    fn is_for_rapier(&self) -> bool {
-        self.asks_rapier && !self.has_screw
-    }
-
-    fn build(self, bodies: &Bodies, world: &World) -> Linked {
-        Linked::new(
-            Mechanism::new(self.bodies, self.joints),
-            self.shapes,
-            self.links,
-            bodies,
-            world,
-        )
     }
 }

@@ -188,8 +188,12 @@ impl<'a> Search<'a> {
             (point.contact.bodies, point.contact.base) = (bodies, base);
             (point.contact.friction, point.contact.restitution) =
                 (surface.friction, surface.restitution);
-            point.contact.velocity =
-                from_vector(self.obstacle_velocity([first, second], point.place()));
+            let (place, normal) = (point.place(), point.normal);
+            let (world, colliders) = (self.world, [first, second]);
+            let along = world
+                .surfaces
+                .velocity(colliders, &world.bodies, place, normal);
+            point.contact.velocity = from_vector(self.obstacle_velocity(colliders, place) + along);
         }
         self.points.extend(points);
         Some(())

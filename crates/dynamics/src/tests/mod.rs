@@ -17,6 +17,7 @@ mod ropes;
 mod sleep;
 mod soft_bodies;
 mod surfaces;
+mod tendons;
 mod tumbling;
 
 use bench::{Bench, STEP, along_y, near};

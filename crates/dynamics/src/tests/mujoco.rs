@@ -1,7 +1,7 @@
 //! MuJoCo's parameters of the scene, of shapes and of dummies, where it is the selected engine: closed forms.
 
 use scene::parameters::engine::Engine;
-use scene::shape::{Material, MovingSurface, SURFACE};
+use scene::shape::{ContactPair, Material, MovingSurface, RespondableMask, SURFACE};
 use scene::{Data, Edit, Namespace, ValueType};
 
 use super::*;
@@ -76,6 +76,59 @@ fn switches_of_the_scene_switch_off() {
     bench.run(20);
     assert_eq!(speed(&bench, body), before);
     near(bench.height(floor), -0.05, 1e-12);
+}
+
+/// Motors hold an arm, joints follow others and loops are closed as long as the scene lets them.
+#[test]
+fn motors_and_equalities_of_the_scene_are_switched_off() {
+    let turned = |name: &'static str| {
+        let mut bench = mujoco();
+        let (joint, _) = bench.arm(0.01, 0.3, |joint| {
+            joint.set_interval(true, -3.0, 6.0);
+            joint.set_control(Control::Velocity);
+            joint.target_velocity = 0.0;
+            joint.set_target_force(100.0, false);
+        });
+        set_scene(&mut bench, name, Data::Bool(false));
+        bench.run(4);
+        bench.joint(joint).position
+    };
+    near(turned("mujoco.sensorEnable"), 0.0, 1e-6);
+    assert!(turned("mujoco.actuationEnable") > 0.2);
+    let fall = |name: &'static str| {
+        let mut bench = mujoco();
+        let base = bench.ghost([0.0, 0.0, 1.0], false);
+        let body = bench.ghost([0.0, 0.0, 0.5], true);
+        let ends = [(base, 0.75), (body, 0.75)].map(|(parent, z)| {
+            let mut dummy = Dummy::new(0.01);
+            dummy.link_type = LinkType::LoopClosure;
+            bench.object(Kind::Dummy(dummy), Pose::translation(0.0, 0.0, z), parent)
+        });
+        bench
+            .scene
+            .link_dummies(ends[0], Some(ends[1]))
+            .expect("dummies");
+        set_scene(&mut bench, name, Data::Bool(false));
+        bench.run(4);
+        0.5 - bench.height(body)
+    };
+    near(fall("mujoco.sensorEnable"), 0.0, 1e-6);
+    near(fall("mujoco.equalityEnable"), 0.2011, 1e-3);
+}
+
+/// The floor bears the weight of 3 kg in place of one.
+#[test]
+fn bodies_have_at_least_the_mass_of_the_scene() {
+    let mut bench = mujoco();
+    bench.floor();
+    let body = bench.shape([0.1; 3], [0.0, 0.0, 0.05], 1.0, true, true);
+    set_scene(&mut bench, "mujoco.boundMass", Data::Float(3.0));
+    bench.run(20);
+    let contacts = bench.dynamics.contacts();
+    let force: f64 = contacts
+        .map(|contact| contact.seen_from(body).force[2])
+        .sum();
+    near(force / 10.0, 3.0 * 9.81, 0.05);
 }
 
 /// The terminal speed of a ball in a fluid of which all rises with `wind`: that of the box with its inertia, `3 pi d viscosity v = m g`.
@@ -192,96 +245,107 @@ fn a_moving_surface_carries() {
     near(speed(&bench, body)[1], 0.0, 1e-6);
 }
 
-/// Two dummies at those places, the ends of a tendon: one of the world, one below a body.
-fn tendon(bench: &mut Bench, body: Handle, ends: [[f64; 3]; 2], values: &[(&'static str, Data)]) {
-    let dummies = ends.map(|[x, y, z]| {
-        let mut dummy = Dummy::new(0.01);
-        dummy.link_type = LinkType::Tendon;
-        for (name, value) in values {
-            dummy.engine_values.set(name, value.clone());
-        }
-        let handle = bench.scene.add("end", Kind::Dummy(dummy));
-        let handle = handle.expect("room");
-        let pose = Pose::translation(x, y, z);
-        bench.scene.set_world_pose(handle, pose).expect("exists");
-        handle
-    });
-    bench.hang(dummies[1], body);
-    bench
-        .scene
-        .link_dummies(dummies[0], Some(dummies[1]))
-        .expect("dummies");
+fn say_motion(bench: &mut Bench, shape: Handle, linear: [f64; 3]) {
+    let angular = [0.0; 3];
+    let motion = MovingSurface { linear, angular };
+    let text = (ValueType::String, Data::text(&motion.to_string()));
+    let edit = Edit::Name(SURFACE, Some(text));
+    let scene = &mut bench.scene;
+    let said = scene.edit_named_values(Some(shape), Namespace::CustomData, edit);
+    said.expect("exists");
 }
 
-/// T = 2 pi sqrt(m / k), whatever the stiffness; the amplitude stays. A mass of 1 kg, half a period and whole ones.
+/// A belt of 1 m/s on a cart of 3 kg that rolls without friction, and a box of 1 kg on it: friction accelerates the box and pushes the cart back, until the box is faster than the cart by the speed of the belt.
+/// Momentum stays: 1/4 and 3/4 of that speed. The cart is free, or on a slider; there may be many of them, which are solved in another way.
 #[test]
-fn a_tendon_swings_as_a_spring() {
-    for stiffness in [4.0 * std::f64::consts::PI.powi(2), 400.0] {
-        let mut bench = mujoco();
-        bench.gravity(0.0);
-        let body = bench.ghost([1.1, 0.0, 0.0], true);
-        let values = [
-            ("mujoco.springStiffness", Data::Float(stiffness)),
-            ("mujoco.springLength", Data::Float(1.0)),
-        ];
-        tendon(&mut bench, body, [[0.0; 3], [1.1, 0.0, 0.0]], &values);
-        let mut places = Vec::new();
-        for _ in 0..40 {
-            bench.run(1);
-            places.push(bench.at(body)[0]);
+fn a_belt_that_is_carried_carries_and_is_pushed_back() {
+    for (is_linked, count) in [(false, 1), (true, 1), (false, 80)] {
+        let mut bench = Bench::new();
+        let floor = bench.shape([10.0, 600.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+        bench.change(floor, |shape| shape.material = Material::of_friction(0.0));
+        let mut carts = Vec::new();
+        for number in 0..count {
+            let y = 3.0 * f64::from(number);
+            let cart = bench.shape([2.0, 0.5, 0.1], [0.0, y, 0.05], 3.0, true, true);
+            let body = bench.shape([0.2, 0.2, 0.1], [-0.4, y, 0.15], 1.0, true, true);
+            for shape in [cart, body] {
+                bench.change(shape, |shape| {
+                    shape.material = Material::of_friction(0.5);
+                });
+            }
+            say_motion(&mut bench, cart, [1.0, 0.0, 5.0]);
+            if is_linked {
+                let base = bench.ghost([0.0, y, 0.05], false);
+                let mut joint = Joint::new(JointType::Prismatic, JointMode::Dynamic);
+                joint.set_interval(false, -100.0, 200.0);
+                joint.set_control(Control::Free);
+                let turn = nalgebra::UnitQuaternion::from_euler_angles(
+                    0.0,
+                    std::f64::consts::FRAC_PI_2,
+                    0.0,
+                );
+                let pose = Pose::from_parts(nalgebra::Translation3::new(0.0, y, 0.05), turn);
+                let joint = bench.object(Kind::Joint(Box::new(joint)), pose, base);
+                bench.hang(cart, joint);
+            }
+            carts.push((cart, body));
         }
-        let turns = stiffness.sqrt() * STEP;
-        for (number, place) in places.iter().enumerate() {
-            let phase = turns * (number + 1) as f64;
-            near(*place, 1.0 + 0.1 * phase.cos(), 6e-3);
+        bench.run(10);
+        for (cart, body) in carts {
+            near(speed(&bench, body)[0], 0.75, 5e-3);
+            near(speed(&bench, cart)[0], -0.25, 5e-3);
+            near(bench.height(body), 0.15, 1e-3);
         }
     }
 }
 
-/// The mass hangs m g / k below the length of rest once the damper has brought it there. It is critically damped: c = 2 sqrt(k m).
+/// What a shape says of another one counts before masks: a box falls through the floor or does not, and slides by the friction of the pair.
 #[test]
-fn a_damped_tendon_comes_to_rest_where_it_bears_the_weight() {
-    let mut bench = mujoco();
-    let body = bench.ghost([0.0, 0.0, -1.0], true);
-    let values = [
-        ("mujoco.springStiffness", Data::Float(100.0)),
-        ("mujoco.springDamping", Data::Float(20.0)),
-    ];
-    // The length at the start is that of rest.
-    tendon(&mut bench, body, [[0.0; 3], [0.0, 0.0, -1.0]], &values);
-    bench.run(60);
-    near(bench.height(body), -1.0 - 0.0981, 1e-4);
-}
-
-/// A length without slack: a pendulum that swings at its length, and a mass that falls to it.
-#[test]
-fn a_tendon_is_no_longer_than_its_range() {
-    let values = [
-        ("mujoco.limitsEnabled", Data::Bool(true)),
-        ("mujoco.limitsRange", Data::from(vec![0.0, 1.0])),
-    ];
-    let mut bench = mujoco();
-    let body = bench.ghost([0.0, 0.0, -0.5], true);
-    tendon(&mut bench, body, [[0.0; 3], [0.0, 0.0, -0.5]], &values);
-    bench.run(40);
-    near(bench.height(body), -1.0, 1e-6);
-    // T = 2 pi sqrt(l / g), for a point of small inertia.
-    let mut bench = mujoco();
-    let body = bench.ghost([0.05, 0.0, -(1.0f64 - 0.0025).sqrt()], true);
-    let end = bench.at(body);
-    tendon(&mut bench, body, [[0.0; 3], end], &values);
-    let period = std::f64::consts::TAU / 9.81f64.sqrt();
-    bench.run((period / STEP).round() as usize);
-    near(bench.at(body)[0], 0.05, 2e-3);
-    near(bench.at(body).iter().map(|x| x * x).sum::<f64>(), 1.0, 1e-3);
-}
-
-#[test]
-fn tendons_belong_to_mujoco() {
-    let mut bench = Bench::new();
-    let body = bench.ghost([0.0, 0.0, -1.0], true);
-    let values = [("mujoco.springStiffness", Data::Float(1e4))];
-    tendon(&mut bench, body, [[0.0; 3], [0.0, 0.0, -1.0]], &values);
-    bench.run(1);
-    near(bench.height(body), -1.013_488_751, 1e-7);
+fn shapes_say_how_they_touch_others() {
+    let fall = |mask: u16, touches: bool| {
+        let mut bench = Bench::new();
+        let floor = bench.floor();
+        let body = bench.shape([0.1; 3], [0.0, 0.0, 0.05], 1.0, true, true);
+        bench.change(body, |shape| {
+            shape.dynamics.respondable_mask = RespondableMask(i64::from(mask));
+        });
+        let pair = ContactPair {
+            other: floor,
+            touches,
+            friction: None,
+        };
+        bench
+            .scene
+            .set_contact_pairs(body, &[pair])
+            .expect("exists");
+        bench.run(4);
+        bench.height(body) - 0.05
+    };
+    near(fall(0, true), 0.0, 2e-3);
+    near(fall(0xffff, false), -0.2011, 1e-3);
+    let slide = |friction: Option<f64>| {
+        let mut bench = Bench::new();
+        bench
+            .scene
+            .modify_settings(|settings| settings.dynamics.gravity = [4.0, 0.0, -9.81]);
+        let floor = bench.floor();
+        let body = bench.shape([0.2, 0.2, 0.05], [0.0, 0.0, 0.025], 1.0, true, true);
+        for shape in [floor, body] {
+            bench.change(shape, |shape| shape.material = Material::of_friction(0.1));
+        }
+        let pair = ContactPair {
+            other: body,
+            touches: true,
+            friction,
+        };
+        bench
+            .scene
+            .set_contact_pairs(floor, &[pair])
+            .expect("exists");
+        bench.run(20);
+        bench.at(body)[0]
+    };
+    near(slide(None), (4.0 - 0.981) / 2.0, 0.02);
+    near(slide(Some(0.3)), (4.0 - 0.3 * 9.81) / 2.0, 0.02);
+    near(slide(Some(0.5)), 0.0, 1e-3);
 }

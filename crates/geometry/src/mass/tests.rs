@@ -223,3 +223,24 @@ fn principal_moments_are_limited_and_survive_bad_numbers() {
     };
     assert_eq!(bad.principal_axes().0, UnitQuaternion::identity());
 }
+
+#[test]
+fn masses_and_moments_are_bounded_and_balanced_as_mujoco_does() {
+    let body = MassProperties::diagonal(2.0, [1.0, 1.0, 3.0]);
+    assert_eq!(body.bounded(0.0, 0.0, false), body);
+    assert_eq!(body.bounded(2.0, 2.0, false), body);
+    // 2, 2 and 6 kg m2 are no moments of a body: their mean is 10 / 3.
+    let balanced = body.bounded(0.0, 0.0, true).absolute_inertia();
+    assert!(
+        [0, 4, 8]
+            .iter()
+            .all(|i| (balanced[*i] - 10.0 / 3.0).abs() < 1e-12)
+    );
+    let bounded = body.bounded(5.0, 2.5, false);
+    let moments = bounded.absolute_inertia();
+    assert_eq!(bounded.mass, 5.0);
+    for (place, moment) in [(0, 2.5), (4, 2.5), (8, 6.0)] {
+        assert!((moments[place] - moment).abs() < 1e-12, "{moments:?}");
+    }
+    assert_eq!(body.bounded(f64::INFINITY, 0.0, true), body);
+}

@@ -8,6 +8,7 @@ pub(crate) mod identity;
 pub mod movement;
 pub(crate) mod objects;
 pub mod script_object;
+pub mod tendon;
 pub mod viewers;
 
 use assembly::Assembly;

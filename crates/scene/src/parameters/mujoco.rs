@@ -1,6 +1,7 @@
 //! What MuJoCo's parameters of the scene, of shapes and of dummies mean, while it is the selected engine. Those of joints are in `joint::actuation`.
 
 use crate::object::dummy::{Dummy, LinkType};
+use crate::object::tendon::TendonLaw;
 use crate::shape::{Fluid, Material};
 use crate::{Data, DynamicsSettings, InertValues};
 
@@ -24,19 +25,14 @@ pub struct Surrounding {
     pub has_joint_friction: bool,
     /// Whether joints have limits.
     pub has_joint_limits: bool,
-}
-
-/// A tendon between two points.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tendon {
-    /// N/m
-    pub stiffness: f64,
-    /// N s/m
-    pub damping: f64,
-    /// Length at which the spring exerts no force, metres; None for that at the start.
-    pub rest: Option<f64>,
-    /// Smallest and largest length, metres, if it has them.
-    pub range: Option<[f64; 2]>,
+    /// Whether loops are closed, and joints follow others.
+    pub has_equalities: bool,
+    /// Whether motors move joints.
+    pub has_motors: bool,
+    /// Smallest mass, kg, and moment of inertia, kg m2, of bodies.
+    pub least: [f64; 2],
+    /// Whether moments that no body has are made equal.
+    pub balances_inertia: bool,
 }
 
 impl Default for Surrounding {
@@ -49,6 +45,10 @@ impl Default for Surrounding {
             has_passive_forces: true,
             has_joint_friction: true,
             has_joint_limits: true,
+            has_equalities: true,
+            has_motors: true,
+            least: [0.0; 2],
+            balances_inertia: false,
         }
     }
 }
@@ -76,6 +76,13 @@ impl DynamicsSettings {
             has_passive_forces,
             has_joint_friction: is_on("mujoco.frictionlossEnable"),
             has_joint_limits: is_on("mujoco.limitEnable"),
+            has_equalities: is_on("mujoco.equalityEnable"),
+            has_motors: is_on("mujoco.actuationEnable"),
+            least: [
+                number("mujoco.boundMass", 0),
+                chosen_moment(number("mujoco.boundInertia", 0)),
+            ],
+            balances_inertia: values.get("mujoco.balanceInertias") == Some(&Data::Bool(true)),
         }
     }
 }
@@ -116,20 +123,29 @@ impl Material {
 
 impl Dummy {
     /// The tendon between this dummy and its partner, by the parameters of this one; None if their link is another one.
-    pub fn tendon(&self) -> Option<Tendon> {
+    pub fn tendon(&self) -> Option<TendonLaw> {
         let values = &self.engine_values;
         let value = |name: &str| number(values, name, 0).unwrap_or(0.0).max(0.0);
         let is_limited = values.get("mujoco.limitsEnabled") == Some(&Data::Bool(true));
         let end = |end: usize| number(values, "mujoco.limitsRange", end).unwrap_or(0.0);
         let range = [end(0), end(1)];
         let rest = number(values, "mujoco.springLength", 0);
-        (self.link_type == LinkType::Tendon).then(|| Tendon {
+        (self.link_type == LinkType::Tendon).then(|| TendonLaw {
             stiffness: value("mujoco.springStiffness"),
             damping: value("mujoco.springDamping"),
-            rest: rest.filter(|length| *length >= 0.0),
+            rest: rest
+                .filter(|length| *length >= 0.0)
+                .map(|length| [length; 2]),
             range: (is_limited && range[0] <= range[1]).then_some(range),
+            ..TendonLaw::default()
         })
     }
+}
+
+/// A smallest moment of inertia that somebody chose: the 1e-6 kg m2 of all files do not bound small parts of robots, which the solver has no trouble with.
+fn chosen_moment(moment: f64) -> f64 {
+    const OF_FILES: f64 = 1.000_001e-6;
+    if moment > OF_FILES { moment } else { 0.0 }
 }
 
 fn number(values: &InertValues, name: &str, place: usize) -> Option<f64> {
@@ -139,6 +155,7 @@ fn number(values: &InertValues, name: &str, place: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::engine_blocks::EngineValues as _;
 
     fn material(values: &[(&'static str, Data)]) -> Material {
         let mut material = Material::of_friction(1.0);
@@ -192,6 +209,54 @@ mod tests {
         assert_eq!(density, Some(1.2));
     }
 
+    /// A scene of 4.10 has all its switches in one number, of which 4095 is the usual one.
+    #[test]
+    fn switches_are_bits_of_files() {
+        let mut settings = DynamicsSettings::default();
+        settings.engine.engine = Engine::Mujoco;
+        let (reals, mut ints) = settings.engine_rows(Engine::Mujoco);
+        assert_eq!((ints[0], ints[17]), (0, 4095));
+        settings.load_engine(Engine::Mujoco, &reals, &ints);
+        assert_eq!(
+            settings.surrounding(),
+            Surrounding {
+                wind: [0.0; 3],
+                ..Surrounding::default()
+            }
+        );
+        ints[17] = 4095 - 0x1 - 0x2 - 0x4 - 0x8 - 0x10 - 0x20 - 0x80;
+        settings.load_engine(Engine::Mujoco, &reals, &ints);
+        let off = settings.surrounding();
+        let switches = [
+            off.has_equalities,
+            off.has_joint_friction,
+            off.has_joint_limits,
+            off.has_contacts,
+            off.has_passive_forces,
+            off.has_gravity,
+            off.has_motors,
+        ];
+        assert_eq!(switches, [false; 7]);
+        // A file of before has no such number, and all of them on.
+        let mut old = DynamicsSettings::default();
+        old.engine.engine = Engine::Mujoco;
+        old.load_engine(Engine::Mujoco, &reals[..19], &ints[..10]);
+        assert_eq!(old.surrounding(), Surrounding::default());
+    }
+
+    #[test]
+    fn bounds_of_inertia_are_those_that_were_chosen() {
+        let mut settings = DynamicsSettings::default();
+        settings.engine.engine = Engine::Mujoco;
+        let mut set = |name: &'static str, value: f64| {
+            settings.engine_values.set(name, Data::Float(value));
+            settings.surrounding().least
+        };
+        assert_eq!(set("mujoco.boundMass", 0.5), [0.5, 0.0]);
+        assert_eq!(set("mujoco.boundInertia", 9.999_999_974e-7), [0.5, 0.0]);
+        assert_eq!(set("mujoco.boundInertia", 1e-3), [0.5, 1e-3]);
+    }
+
     #[test]
     fn a_tendon_has_what_its_dummy_says() {
         let mut dummy = Dummy::new(0.1);
@@ -209,6 +274,9 @@ mod tests {
         values.set("mujoco.limitsEnabled", Data::Bool(true));
         values.set("mujoco.springLength", Data::Float(0.0));
         let tendon = dummy.tendon().expect("a tendon");
-        assert_eq!((tendon.rest, tendon.range), (Some(0.0), Some([0.0, 2.0])));
+        assert_eq!(
+            (tendon.rest, tendon.range),
+            (Some([0.0; 2]), Some([0.0, 2.0]))
+        );
     }
 }

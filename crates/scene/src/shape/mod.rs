@@ -1,6 +1,7 @@
 //! Shapes as data: geometry, mass, material, appearance.
 
 pub mod build;
+mod contact_pairs;
 pub mod decimate;
 mod fluid;
 pub(crate) mod group;
@@ -14,6 +15,7 @@ pub mod soft;
 
 use std::rc::Rc;
 
+pub use contact_pairs::{ContactPair, PAIRS};
 pub use fluid::{FLUID, Fluid};
 use geometry::{BoundingBox, MassProperties, Mesh, PrimitiveKind};
 pub use moving_surface::{MovingSurface, SURFACE};

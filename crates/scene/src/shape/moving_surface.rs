@@ -1,4 +1,4 @@
-//! Shapes whose surface moves although they stand still, as belts do: what bodies in MJCF have.
+//! Shapes whose surface moves along them, as belts do: what bodies in MJCF have.
 
 use crate::{Data, Object, Pose};
 use nalgebra::Vector3;
