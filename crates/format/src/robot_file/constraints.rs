@@ -13,7 +13,10 @@ impl Import<'_> {
     pub(super) fn add_sites(&mut self) -> SceneResult<()> {
         for site in &self.model.sites {
             let parent = self.nodes[site.link].carrier;
-            self.add_dummy(&site.name, self.placed[site.link] * site.pose, parent)?;
+            let pose = self.placed[site.link] * site.pose;
+            let dummy = self.add_dummy(&site.name, pose, parent)?;
+            // Of several of a name the first one is meant.
+            self.sites.entry(site.name.clone()).or_insert(dummy);
         }
         Ok(())
     }

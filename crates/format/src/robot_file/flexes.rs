@@ -246,11 +246,11 @@ mod tests {
     #[test]
     fn what_has_no_counterpart_is_named() {
         let (_, messages) = imported(
-            "<mujoco><worldbody><geom size='1'/>\n<flexcomp type='mesh' file='a.obj'/></worldbody></mujoco>",
+            "<mujoco><worldbody><geom size='1'/>\n<flexcomp type='gmsh' file='a.msh'/></worldbody></mujoco>",
         );
         assert_eq!(
             messages,
-            ["line 2, <flexcomp>: flexcomps of type 'mesh' are not read"]
+            ["line 2, <flexcomp>: flexcomps of type 'gmsh' are not read"]
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Joints become joints, force sensors and dummies.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use robot_description::mjcf::{Actuator, Drive};
+use robot_description::mjcf::{Actuator, Drive, Target};
 use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
 use super::{Import, RobotFormat, RobotImportOptions};
@@ -68,7 +68,9 @@ impl Import<'_> {
                 }
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
-                    let of_joint = actuators.iter().filter(|actuator| actuator.joint == index);
+                    let of_joint = actuators
+                        .iter()
+                        .filter(|actuator| actuator.target == Target::Joint(index));
                     actuation = Some(set_actuators(&mut joint, description, of_joint));
                 }
             }
@@ -121,13 +123,13 @@ impl Import<'_> {
         let actuators = self.model.actuators.as_deref().unwrap_or_default();
         let is_further = |(number, actuator): &(usize, &Actuator)| {
             let is_same = |other: &Actuator| {
-                other.joint == actuator.joint && kind_of(other) == kind_of(actuator)
+                other.target == actuator.target && kind_of(other) == kind_of(actuator)
             };
             actuators[..*number].iter().any(is_same)
         };
         for (_, actuator) in actuators.iter().enumerate().filter(is_further) {
             self.messages.push(format!(
-                "line {}: actuator '{}' and another one of its kind and joint are one, which is told the same",
+                "line {}: actuator '{}' and another one of its kind on the same joint or tendon are one, which is told the same",
                 actuator.line, actuator.name
             ));
         }
@@ -140,7 +142,9 @@ impl Import<'_> {
         let is_passive = match &self.model.actuators {
             _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => true,
             Some(_) if joint.kind.numbers() == 1 => return false,
-            Some(actuators) => actuators.iter().all(|actuator| actuator.joint != index),
+            Some(actuators) => actuators
+                .iter()
+                .all(|actuator| actuator.target != Target::Joint(index)),
             None => false,
         };
         let moves = joint.kind.numbers() == 1 && joint.mimic.is_none();
@@ -210,7 +214,7 @@ fn set_actuators<'a>(
     description: &Description,
     of_joint: impl Iterator<Item = &'a Actuator>,
 ) -> motor::Actuators {
-    joint.set_passive(&passive(&description.dynamics));
+    joint.set_passive(&passive_of(&description.dynamics));
     let mut made = motor::Actuators::default();
     let mut control = Control::Free;
     for actuator in of_joint {
@@ -233,19 +237,40 @@ fn kind_of(actuator: &Actuator) -> ActuatorKind {
     }
 }
 
-/// The target of a motor is 0 at first, or what is next to it in its range.
+/// What a motor is told at first: 0, or what is next to it in its range.
 fn set_initial_target(joint: &mut Joint, actuator: &Actuator) {
+    match initial_target(actuator) {
+        (Told::Force, _) => joint.set_target_force(0.0, true),
+        (Told::Position, target) => joint.target_position = target,
+        (Told::Velocity, target) => joint.target_velocity = target,
+    }
+}
+
+/// What an actuator is told, in the order of what tendons are told.
+#[derive(Debug, Clone, Copy)]
+pub enum Told {
+    /// A force, N, or a torque, N m.
+    Force,
+    /// A position, m or rad, or a length.
+    Position,
+    /// A speed, m/s or rad/s.
+    Velocity,
+}
+
+/// What an actuator is told at first: 0, or what is next to it in its range.
+pub fn initial_target(actuator: &Actuator) -> (Told, f64) {
     let target = actuator
         .control
         .map_or(0.0, |[low, high]| 0.0_f64.max(low).min(high));
     match actuator.drive {
-        Drive::Position { .. } => joint.target_position = target,
-        Drive::Velocity { .. } => joint.target_velocity = target,
-        Drive::Force => joint.set_target_force(0.0, true),
+        Drive::Position { .. } => (Told::Position, target),
+        Drive::Velocity { .. } => (Told::Velocity, target),
+        Drive::Force => (Told::Force, 0.0),
     }
 }
 
-fn motor_of(actuator: &Actuator) -> motor::Actuator {
+/// The motor that an actuator of MJCF becomes.
+pub fn motor_of(actuator: &Actuator) -> motor::Actuator {
     let mut made = motor::Actuator::new(kind_of(actuator));
     (made.bias, made.range) = (actuator.bias, actuator.range.unwrap_or(made.range));
     match actuator.drive {
@@ -258,7 +283,8 @@ fn motor_of(actuator: &Actuator) -> motor::Actuator {
     made
 }
 
-fn passive(dynamics: &Dynamics) -> Passive {
+/// What acts along the axis of a joint beside its motors.
+pub fn passive_of(dynamics: &Dynamics) -> Passive {
     Passive {
         armature: dynamics.armature,
         stiffness: dynamics.stiffness,

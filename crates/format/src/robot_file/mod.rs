@@ -18,17 +18,19 @@ mod ros;
 mod sensors;
 mod shapes;
 mod surfaces;
+mod tendons;
 
 use std::collections::BTreeMap;
 
 use bitflags::bitflags;
 use robot_description::Robot;
-use robot_description::mjcf::{Actuator, Adhesion, Equality, Flex, Site};
+use robot_description::mjcf::{Actuator, Adhesion, Equality, Flex, Site, Tendon};
 
 use super::scene_file::save;
 use super::ttt::File;
 pub use export::{RobotExportOptions, export};
 pub use flexes::{SoftShape, pin_nodes};
+pub use joints::{Told, initial_target, motor_of, passive_of};
 use masks::Masks;
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
@@ -37,6 +39,8 @@ pub use ros::RosRobot;
 use scene::object::dummy::Dummy;
 use scene::shape::{Fluid, MovingSurface};
 use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
+pub use surfaces::values as surface_values;
+pub use tendons::resolved as resolved_tendon;
 
 bitflags! {
     /// The options of `simURDF.import`.
@@ -104,9 +108,12 @@ struct Description {
     actuators: Option<Vec<Actuator>>,
     sites: Vec<Site>,
     equalities: Vec<Equality>,
+    tendons: Vec<Tendon>,
     flexes: Vec<Flex>,
     /// The pairs of links that may touch, in increasing order, if the file says it.
     touching: Option<Vec<[usize; 2]>>,
+    /// Pairs of links with a friction of their own.
+    pair_frictions: Vec<([usize; 2], f64)>,
     /// The fluid that the bodies are in.
     fluid: Fluid,
     adhesions: Vec<Adhesion>,
@@ -196,8 +203,10 @@ impl RobotFile {
             import.add_links()?;
             import.add_sensors()?;
             import.add_sites()?;
+            import.add_tendons()?;
             import.add_flexes()?;
             import.add_constraints()?;
+            import.set_pair_frictions()?;
             import.report_dynamics();
             import.report_emptiness();
             let (roots, objects) = import.finish()?;
@@ -254,6 +263,8 @@ struct Import<'a> {
     masks: BTreeMap<usize, Masks>,
     /// What the joints became.
     joints: Vec<Option<Handle>>,
+    /// What the sites became, by their names.
+    sites: BTreeMap<String, Handle>,
     objects: Vec<Handle>,
     messages: &'a mut Vec<String>,
 }
@@ -291,6 +302,7 @@ impl<'a> Import<'a> {
             nodes: vec![Node::default(); robot.links.len()],
             masks: BTreeMap::new(),
             joints: vec![None; robot.joints.len()],
+            sites: BTreeMap::new(),
             objects: Vec::new(),
             messages,
         }

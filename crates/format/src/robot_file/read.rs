@@ -298,8 +298,10 @@ fn of_mjcf(model: mjcf::Model) -> Description {
         actuators,
         sites,
         equalities,
+        tendons,
         flexes,
         touching,
+        pair_frictions,
         adhesions,
         compensations,
         moving_surfaces,
@@ -316,10 +318,12 @@ fn of_mjcf(model: mjcf::Model) -> Description {
             .map(|(link, numbers)| (link, of_numbers(numbers)))
             .collect(),
         touching,
+        pair_frictions,
         fixed,
         actuators: Some(actuators),
         sites,
         equalities,
+        tendons,
         flexes,
         ..Description::default()
     }

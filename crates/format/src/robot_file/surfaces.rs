@@ -1,7 +1,9 @@
 //! What acts on bodies of MJCF by their surface, and what compensates their weight: MuJoCo's parameters of their shapes.
 
+use std::collections::BTreeMap;
+
 use robot_description::mjcf::Adhesion;
-use scene::shape::{MovingSurface, SURFACE};
+use scene::shape::{ContactPair, MovingSurface, SURFACE};
 use scene::{Data, Field, Handle, SceneResult, ValueType};
 
 use super::Import;
@@ -34,6 +36,25 @@ impl Import<'_> {
         self.set_custom_data(shape, SURFACE, (ValueType::String, Data::text(&text)))
     }
 
+    /// Lets shapes say with what friction they touch others; those that became no shape say nothing.
+    pub(super) fn set_pair_frictions(&mut self) -> SceneResult<()> {
+        let mut rules: BTreeMap<Handle, Vec<ContactPair>> = BTreeMap::new();
+        for (links, friction) in &self.model.pair_frictions {
+            let [shape, other] = links.map(|link| self.nodes[link].carrier);
+            if let (Some(shape), Some(other)) = (shape, other) {
+                rules.entry(shape).or_default().push(ContactPair {
+                    other,
+                    touches: true,
+                    friction: Some(*friction),
+                });
+            }
+        }
+        for (shape, pairs) in rules {
+            self.scene.set_contact_pairs(shape, &pairs)?;
+        }
+        Ok(())
+    }
+
     /// A motion in the frame of a link, in that of its shape.
     fn in_shape(
         &self,
@@ -51,7 +72,8 @@ fn of_link<T: Copy>(all: &[(usize, T)], link: usize) -> Option<T> {
     all.find(|(of, _)| *of == link).map(|(_, value)| *value)
 }
 
-fn values(adhesion: Option<&Adhesion>, compensation: Option<f64>) -> Vec<(&'static str, Data)> {
+/// MuJoCo's parameters of a shape that adheres, and of one of whose weight a part is compensated.
+pub fn values(adhesion: Option<&Adhesion>, compensation: Option<f64>) -> Vec<(&'static str, Data)> {
     let mut values = Vec::new();
     values.extend(compensation.map(|part| ("mujoco.gravcomp", Data::Float(part))));
     if let Some(adhesion) = adhesion {

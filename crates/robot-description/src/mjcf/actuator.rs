@@ -1,25 +1,30 @@
-//! Actuators of joints.
+//! Actuators of joints and tendons.
 
 use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
-use super::{Actuator, Drive};
-use crate::model::{Limits, Names, Robot};
+use super::{Actuator, Drive, Model, Target};
+use crate::model::{Limits, Names};
+use crate::report::Warning;
 use crate::xml::short;
 
 pub fn read(
     root: &Element,
     document: &Document,
-    robot: &Robot,
+    model: &Model,
     report: &mut Report,
 ) -> Vec<Actuator> {
-    let joints = Names::new(robot.joints.iter().map(|joint| joint.name.as_str()));
+    let targets = Targets::of(model);
     let mut actuators = Vec::new();
     let elements = root.named("actuator").flat_map(|part| &part.children);
     // Those of bodies are read elsewhere.
     for element in elements.filter(|element| element.name != "adhesion") {
         let attributes = document.defaults.of(element, MAIN, report);
-        match actuator(&attributes, document, (robot, &joints), report) {
+        let read = targets.find(&attributes).and_then(|(target, name)| {
+            let target = (target, name, targets.limits(target));
+            actuator(&attributes, document, target, report)
+        });
+        match read {
             Ok(actuator) => actuators.push(actuator),
             Err(reason) => report.leave_out(element, reason),
         }
@@ -27,17 +32,84 @@ pub fn read(
     actuators
 }
 
+/// What actuators can move.
+struct Targets<'a> {
+    model: &'a Model,
+    joints: Names,
+    tendons: Names,
+}
+
+impl<'a> Targets<'a> {
+    fn of(model: &'a Model) -> Self {
+        let joints = model.robot.joints.iter();
+        let tendons = model.tendons.iter();
+        Self {
+            model,
+            joints: Names::new(joints.map(|joint| joint.name.as_str())),
+            tendons: Names::new(tendons.map(|tendon| tendon.name.as_str())),
+        }
+    }
+
+    /// What an actuator moves, and its name.
+    fn find<'n>(&self, attributes: &Attributes<'n>) -> Result<(Target, &'n str), String> {
+        let named = attributes.first_of(&["joint", "jointinparent", "tendon"]);
+        let (kind, name) =
+            named.ok_or("an actuator that moves no joint and no tendon is not read")?;
+        let (kind, target) = match kind {
+            "tendon" => (kind, self.tendons.get(name).map(Target::Tendon)),
+            _ => ("joint", self.joints.get(name).map(Target::Joint)),
+        };
+        let target = target.ok_or_else(|| format!("there is no {kind} '{}'", short(name)))?;
+        Ok((target, name))
+    }
+
+    /// The positions that it can have, and the largest force.
+    fn limits(&self, target: Target) -> Limits {
+        match target {
+            Target::Joint(joint) => self.model.robot.joints[joint].limits,
+            Target::Tendon(tendon) => {
+                let range = self.model.tendons[tendon].range;
+                Limits {
+                    lower: range.map(|[low, _]| low),
+                    upper: range.map(|[_, high]| high),
+                    ..Limits::default()
+                }
+            }
+        }
+    }
+}
+
+impl Actuator {
+    /// A motor that an element outside of a file describes, with what it moves ("joint" or "tendon" and its name), and what was wrong with it. Its `target` means nothing.
+    ///
+    /// # Errors
+    /// When it describes none; in words.
+    pub fn of_element(element: &Element) -> Result<(Self, [String; 2], Vec<Warning>), String> {
+        let mut report = Report::default();
+        let mut document = Document::new(&Element::default(), &mut report);
+        document.settings.use_radians();
+        let attributes = document.defaults.of(element, MAIN, &mut report);
+        let (key, name) = moved(&attributes)?;
+        let kind = if key == "tendon" { key } else { "joint" };
+        let target = (Target::Joint(0), name, Limits::default());
+        let actuator = actuator(&attributes, &document, target, &mut report)?;
+        let named = [kind.to_owned(), name.to_owned()];
+        Ok((actuator, named, report.finish(()).warnings))
+    }
+}
+
+/// What an actuator moves: the attribute that says it, and the name.
+fn moved<'a>(attributes: &Attributes<'a>) -> Result<(&'static str, &'a str), String> {
+    let named = attributes.first_of(&["joint", "jointinparent", "tendon"]);
+    named.ok_or_else(|| "an actuator that moves no joint and no tendon is not read".to_owned())
+}
+
 fn actuator(
     attributes: &Attributes,
     document: &Document,
-    (robot, joints): (&Robot, &Names),
+    (target, name, limits): (Target, &str, Limits),
     report: &mut Report,
 ) -> Result<Actuator, String> {
-    let target = attributes.first_of(&["joint", "jointinparent"]);
-    let (_, name) = target.ok_or("an actuator that moves no joint is not read")?;
-    let joint = joints
-        .get(name)
-        .ok_or_else(|| format!("there is no joint '{}'", short(name)))?;
     let kind = attributes.element.name.as_str();
     let law = Law::read(kind, attributes, report)?;
     let gear = attributes.numbers(report, "gear", [1.0])[0];
@@ -50,23 +122,19 @@ fn actuator(
         is_limited.then_some(numbers)
     };
     let forces = range("forcelimited", "forcerange").map(|force| scaled(force, gear));
-    let told = range("ctrllimited", "ctrlrange")
-        .or_else(|| inherited_range(attributes, &robot.joints[joint].limits, report));
+    let told =
+        range("ctrllimited", "ctrlrange").or_else(|| inherited_range(attributes, &limits, report));
     let drive = law.drive(gear);
     // The control of a motor is a force.
     let control = told.map(|told| scaled(told, law.of_joint(drive, gear)));
     let of_control = control.filter(|_| drive == Drive::Force);
-    let effort = [
-        forces.map(largest),
-        of_control.map(largest),
-        robot.joints[joint].limits.effort,
-    ];
-    let of_joint = robot.joints[joint].limits.effort.map(|most| [-most, most]);
+    let effort = [forces.map(largest), of_control.map(largest), limits.effort];
+    let of_joint = limits.effort.map(|most| [-most, most]);
     let of_control = of_control.map(|control| control.map(|force| force + law.bias[0] * gear));
     let ranges = [forces, of_control, of_joint].into_iter().flatten();
     Ok(Actuator {
         name: attributes.get("name").unwrap_or(name).to_owned(),
-        joint,
+        target,
         drive,
         effort: effort.into_iter().flatten().reduce(f64::min),
         bias: law.bias[0] * gear,

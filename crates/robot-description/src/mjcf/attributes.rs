@@ -86,6 +86,20 @@ impl Defaults {
         self.classes.len() - 1
     }
 
+    /// The same for an element whose defaults are those of another kind.
+    pub fn of_kind<'a>(
+        &'a self,
+        element: &'a Element,
+        kind: &'a str,
+        class: &str,
+        report: &mut Report,
+    ) -> Attributes<'a> {
+        Attributes {
+            kind,
+            ..self.of(element, class, report)
+        }
+    }
+
     /// The attributes of an element, in a place where the class is the given one unless the element names another.
     pub fn of<'a>(
         &'a self,
@@ -105,6 +119,7 @@ impl Defaults {
         Attributes {
             defaults: self,
             element,
+            kind: kind(&element.name),
             class: class.unwrap_or(0),
         }
     }
@@ -124,6 +139,8 @@ fn kind(name: &str) -> &str {
 pub struct Attributes<'a> {
     defaults: &'a Defaults,
     pub element: &'a Element,
+    /// Of which the defaults are.
+    kind: &'a str,
     class: usize,
 }
 
@@ -141,7 +158,7 @@ impl<'a> Attributes<'a> {
         let mut class = Some(self.class);
         while let Some(index) = class {
             let class_here = &self.defaults.classes[index];
-            let kind = class_here.kinds.get(kind(&self.element.name));
+            let kind = class_here.kinds.get(self.kind);
             let here = |name: &&'n str| kind?.get(*name).map(|value| (*name, value.as_str()));
             if let Some(found) = names.iter().find_map(here) {
                 return Some(found);

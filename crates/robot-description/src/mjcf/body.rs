@@ -141,6 +141,7 @@ impl<'a> Builder<'a> {
         let mut reader = Reader {
             document: self.document,
             report: &mut self.report,
+            files: &mut *self.files,
             link_name: &link_name,
         };
         match reader.read(element) {

@@ -16,6 +16,7 @@ const READ: &[&str] = &[
     "asset",
     "worldbody",
     "actuator",
+    "tendon",
     "contact",
     "equality",
     "option",
@@ -153,6 +154,11 @@ impl Settings {
         }
     }
 
+    /// The name of a file of a mesh, relative to the folder of the model.
+    pub fn mesh_file(&self, name: &str) -> String {
+        self.file(&self.mesh_folder, name)
+    }
+
     /// The name of a file, relative to the folder of the model.
     fn file(&self, folder: &str, name: &str) -> String {
         let name = if self.strips_path {
@@ -274,7 +280,7 @@ impl Document {
             nalgebra::Vector3::from(position).into(),
             rotation.unwrap_or_default(),
         );
-        let file = self.settings.file(&self.settings.mesh_folder, file);
+        let file = self.settings.mesh_file(file);
         let volume = match attributes.get("inertia") {
             Some("exact") => Volume::Exact,
             None | Some("legacy") => Volume::Legacy,

@@ -14,7 +14,7 @@ const MAX_DEPTH: usize = 128;
 /// Bytes of an attribute: very many parts of the model may get a copy of its value.
 const MAX_ATTRIBUTE_BYTES: usize = 2000;
 /// Lists of nodes, of which no defaults make copies, may be as long as the file.
-const LISTS: &[&str] = &["vertex", "id"];
+const LISTS: &[&str] = &["vertex", "id", "point", "element"];
 /// Levels of files that include files.
 const MAX_INCLUDE_DEPTH: usize = 8;
 /// Included files in all.

@@ -1,9 +1,11 @@
 //! Pieces of MJCF without a file around them, as scripts put them into a model.
 
+use super::attributes::MAIN;
 use super::document::Document;
 use super::element::{Element, Report, read_any};
 use super::flex::Reader;
 use super::{Files, Flex, Triangles};
+use crate::model::Pose;
 use crate::report::{ReadError, Warning};
 use crate::xml::short;
 
@@ -61,6 +63,16 @@ impl Fragment {
     }
 }
 
+/// The pose that an element outside of a file says, with angles in radians, and what was wrong with it.
+pub fn pose_of_element(element: &Element) -> (Pose, Vec<Warning>) {
+    let mut report = Report::default();
+    let mut document = Document::new(&Element::default(), &mut report);
+    document.settings.use_radians();
+    let attributes = document.defaults.of(element, MAIN, &mut report);
+    let pose = document.pose(&attributes, &mut report);
+    (pose, report.finish(()).warnings)
+}
+
 impl Flex {
     /// A soft thing that a `<flexcomp>` or `<composite>` outside of a file describes, with angles in radians, and what was wrong with it. `body` is the name of what it is on.
     ///
@@ -73,6 +85,7 @@ impl Flex {
         let mut reader = Reader {
             document: &document,
             report: &mut report,
+            files: &mut NoFiles,
             link_name: body,
         };
         let flex = reader.read(element)?;

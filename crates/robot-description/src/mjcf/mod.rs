@@ -1,4 +1,4 @@
-//! MJCF, the XML format of MuJoCo (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>): bodies, joints, geoms, actuators, sites, equality constraints, grids of `<flexcomp>` and composites.
+//! MJCF, the XML format of MuJoCo (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>): bodies, joints, geoms, actuators, sites, tendons, equality constraints, grids of `<flexcomp>` and composites.
 //!
 //! Files that a file includes are a part of it, classes of defaults and the settings of `<compiler>` are applied. A body with several joints becomes links
 //! without mass between them. What is not understood is a warning with its line.
@@ -21,6 +21,7 @@ mod inertia;
 mod mesh_solid;
 mod orientation;
 mod surface;
+mod tendon;
 mod touching;
 
 use crate::model::{Link, Pose, Robot};
@@ -31,7 +32,7 @@ use element::Report;
 
 pub use element::Element;
 pub use flex::{Flex, FlexForm, FlexPin};
-pub use fragment::Fragment;
+pub use fragment::{Fragment, pose_of_element};
 
 /// What an MJCF file contains.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -50,25 +51,29 @@ pub struct Model {
     pub adhesions: Vec<Adhesion>,
     /// Links of whose weight a part is compensated, and which part.
     pub compensations: Vec<(usize, f64)>,
-    /// Links that never move but whose surface does, and how, in their frames: the velocity of the origin in m/s, and the angular one in rad/s.
+    /// Links whose surface moves along them, and how, in their frames: the velocity of the origin in m/s, and the angular one in rad/s.
     pub moving_surfaces: Vec<(usize, [f64; 6])>,
     /// The marked places.
     pub sites: Vec<Site>,
+    /// The tendons, whose sites and joints there are.
+    pub tendons: Vec<Tendon>,
     /// The soft things.
     pub flexes: Vec<Flex>,
     /// What holds joints or links together beside the tree.
     pub equalities: Vec<Equality>,
     /// The pairs of links that may touch, each in increasing order. None where they are too many to say.
     pub touching: Option<Vec<[usize; 2]>>,
+    /// Pairs of links, in increasing order, of which the file says the friction of both together.
+    pub pair_frictions: Vec<([usize; 2], f64)>,
 }
 
-/// A motor of a joint.
+/// A motor of a joint or a tendon: forces are those on it, positions and speeds its own ones. Of a tendon they are lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actuator {
     /// Its name.
     pub name: String,
-    /// The index of its joint.
-    pub joint: usize,
+    /// What it moves.
+    pub target: Target,
     /// What it does.
     pub drive: Drive,
     /// The greatest force or torque on the joint, N or N m, if it has one.
@@ -98,6 +103,49 @@ pub struct Adhesion {
     pub force: Option<[f64; 2]>,
     /// Its line in the file, from 1.
     pub line: u32,
+}
+
+/// What an actuator moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// The joint with that index.
+    Joint(usize),
+    /// The tendon with that index.
+    Tendon(usize),
+}
+
+/// A tendon: its length, and what acts along it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tendon {
+    /// Its name.
+    pub name: String,
+    /// What its length is measured along: points, or joints.
+    pub path: Vec<TendonPart>,
+    /// Force per length, N/m; over joints per unit of its length.
+    pub stiffness: f64,
+    /// Force per speed, N s/m.
+    pub damping: f64,
+    /// Largest force of dry friction, N.
+    pub friction: f64,
+    /// Inertia of what moves with it, kg.
+    pub armature: f64,
+    /// Shortest and longest length at which the spring exerts no force; None for that at first.
+    pub rest: Option<[f64; 2]>,
+    /// Smallest and largest length, if it has them.
+    pub range: Option<[f64; 2]>,
+    /// Its line in the file, from 1.
+    pub line: u32,
+}
+
+/// A part of the path of a tendon.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TendonPart {
+    /// It goes straight to the site of that name from the one before.
+    Site(String),
+    /// A new branch begins, whose length counts divided by this.
+    Pulley(f64),
+    /// The position of the joint of that name, times this, is a part of the length.
+    Joint(String, f64),
 }
 
 /// What an actuator does.
@@ -237,7 +285,8 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     }
     model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
     (model.gravity, model.fluid) = (document.gravity, document.fluid);
-    model.actuators = actuator::read(&root, &document, &model.robot, &mut report);
+    model.tendons = tendon::read(&root, &document, &model, &mut report);
+    model.actuators = actuator::read(&root, &document, &model, &mut report);
     model.adhesions = surface::adhesions(&root, &document, &model, &mut report);
     model.equalities = equality::read(&root, &model, &mut report);
     Ok(report.finish(model))

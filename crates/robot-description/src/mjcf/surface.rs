@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::attributes::{Attributes, MAIN};
+use super::attributes::{Attributes, Defaults, MAIN};
 use super::body::Builder;
 use super::document::Document;
 use super::element::{Element, Report};
@@ -19,7 +19,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Notes how the surface of a geom moves that is about to be added to its link, where it has that pose. All that is touched of a link moves as one, and links that move have no such surface.
+    /// Notes how the surface of a geom moves that is about to be added to its link, where it has that pose. All that is touched of a link moves as one.
     pub(super) fn note_motion(&mut self, attributes: &Attributes, link: usize, pose: &Pose) {
         if attributes.get("adhesion").is_some() {
             let text = "adhesion of geoms is not read: that of actuators is";
@@ -33,8 +33,6 @@ impl Builder<'_> {
         let is_first = self.model.robot.links[link].collisions.is_empty();
         let reason = if motion == others {
             return;
-        } else if self.model.fixed.binary_search(&link).is_err() {
-            "surfacevel is not read of bodies that move"
         } else if is_first {
             surfaces.extend(motion.map(|motion| (link, motion)));
             return;
@@ -68,7 +66,12 @@ pub fn adhesions(
     let actuators = root.named("actuator").flat_map(|part| &part.children);
     for element in actuators.filter(|element| element.name == "adhesion") {
         let attributes = document.defaults.of(element, MAIN, report);
-        match adhesion(&attributes, &links, report) {
+        let read = body(&attributes).and_then(|name| {
+            let link = links.get(name);
+            let link = link.ok_or_else(|| format!("there is no body '{}'", short(name)))?;
+            Ok(adhesion(&attributes, name, link, report))
+        });
+        match read {
             Ok(adhesion) => adhesions.push(adhesion),
             Err(reason) => report.leave_out(element, reason),
         }
@@ -76,26 +79,37 @@ pub fn adhesions(
     adhesions
 }
 
-fn adhesion(
-    attributes: &Attributes,
-    links: &Names,
-    report: &mut Report,
-) -> Result<Adhesion, String> {
-    let body = attributes.get("body").ok_or("it names no body")?;
-    let link = links
-        .get(body)
-        .ok_or_else(|| format!("there is no body '{}'", short(body)))?;
+impl Adhesion {
+    /// What an `<adhesion>` outside of a file describes, and the name of the body. Its `link` means nothing.
+    ///
+    /// # Errors
+    /// When it names no body; in words.
+    pub fn of_element(element: &Element) -> Result<(Self, String), String> {
+        let mut report = Report::default();
+        let defaults = Defaults::new(&Element::default(), &mut report);
+        let attributes = defaults.of(element, MAIN, &mut report);
+        let name = body(&attributes)?;
+        Ok((adhesion(&attributes, name, 0, &mut report), name.to_owned()))
+    }
+}
+
+fn body<'a>(attributes: &Attributes<'a>) -> Result<&'a str, String> {
+    let body = attributes.get("body");
+    body.ok_or_else(|| "it names no body".to_owned())
+}
+
+fn adhesion(attributes: &Attributes, body: &str, link: usize, report: &mut Report) -> Adhesion {
     let mut range = |name: &str| {
         let is_there = attributes.get(name).is_some();
         is_there.then(|| attributes.numbers(report, name, [0.0; 2]))
     };
     let (control, force) = (range("ctrlrange"), range("forcerange"));
-    Ok(Adhesion {
+    Adhesion {
         name: attributes.get("name").unwrap_or(body).to_owned(),
         link,
         gain: attributes.number(report, "gain").unwrap_or(1.0),
         control,
         force,
         line: attributes.element.line,
-    })
+    }
 }

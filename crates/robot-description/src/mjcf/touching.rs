@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector3;
 
-use super::attributes::Attributes;
+use super::attributes::{Attributes, MAIN};
 use super::body::Builder;
+use super::document::Document;
 use super::element::{Element, Report};
 use crate::model::{Geometry, Names, Pose};
 use crate::xml::short;
@@ -172,9 +173,25 @@ impl Builder<'_> {
             excluded: found("body", &self.pairs.excluded, &|name| links.get(name)),
             touching: found("geom that is touched", &self.pairs.touching, &geom_link),
         };
+        let frictions = self.pairs.touching.iter().filter_map(|(element, names)| {
+            let [a, b] = [geom_link(names[0])?, geom_link(names[1])?];
+            let friction = friction_of_pair(self.document, element, &mut report)?;
+            Some((sorted([a, b]), friction))
+        });
+        self.model.pair_frictions = frictions.collect();
         self.report = report;
         said
     }
+}
+
+/// The friction of a `<pair>`, if it says one; a pair of one dimension has none.
+fn friction_of_pair(document: &Document, element: &Element, report: &mut Report) -> Option<f64> {
+    let attributes = document.defaults.of(element, MAIN, report);
+    if attributes.get("condim") == Some("1") {
+        return Some(0.0);
+    }
+    let friction = attributes.number(report, "friction")?;
+    Some(friction.max(0.0))
 }
 
 fn sorted([a, b]: [usize; 2]) -> [usize; 2] {

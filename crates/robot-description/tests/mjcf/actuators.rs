@@ -1,5 +1,7 @@
 //! Motors, what they act on, and what acts on bodies beside them; constraints.
 
+use robot_description::mjcf::Target;
+
 use super::*;
 
 #[test]
@@ -8,19 +10,19 @@ fn actuators_and_constraints_name_what_they_act_on() {
     let drives: Vec<_> = model
         .actuators
         .iter()
-        .map(|actuator| (actuator.joint, actuator.drive, actuator.effort))
+        .map(|actuator| (actuator.target, actuator.drive, actuator.effort))
         .collect();
     let expected = [
         (
-            1,
+            Target::Joint(1),
             Drive::Position {
                 stiffness: 200.0,
                 damping: 0.0,
             },
             Some(40.0),
         ),
-        (2, Drive::Velocity { damping: 7.0 }, None),
-        (2, Drive::Force, Some(3.0)),
+        (Target::Joint(2), Drive::Velocity { damping: 7.0 }, None),
+        (Target::Joint(2), Drive::Force, Some(3.0)),
     ];
     assert_eq!(drives, expected);
     let [
@@ -108,9 +110,10 @@ fn bodies_adhere_float_and_have_belts() {
         links.position(|link| link.name == name).expect("a link")
     };
     assert_eq!(model.compensations, [(named("ball"), 0.5)]);
-    let [(belt, motion)] = model.moving_surfaces[..] else {
+    let [(belt, motion), ball] = model.moving_surfaces[..] else {
         panic!("{:?}", model.moving_surfaces);
     };
+    assert_eq!(ball, (named("ball"), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
     // It turns about its own middle, two metres along y: there the surface goes along y with 0.5 m/s.
     let expected = [2.0, 0.5, 0.0, 0.0, 0.0, 1.0];
     assert_eq!(belt, named("belt"));
@@ -129,7 +132,6 @@ fn bodies_adhere_float_and_have_belts() {
     );
     let left_out = [
         "another geom of the body",
-        "of bodies that move",
         "adhesion of geoms",
         "no body 'nobody'",
         "it names no body",

@@ -80,9 +80,9 @@ fn what_is_not_understood_has_a_line() {
     let text = world(
         "\n<camera/>\n<body euler='1 2'>\n<joint axis='0 0 0'/>\n<joint type='odd' class='none'/>\n<geom type='hfield'/>\n<geom mesh='m'/>\n<geom size='1e400'/></body>",
     );
-    let parsed = read(&text.replace("</mujoco>", "\n<tendon/><visual/></mujoco>"));
+    let parsed = read(&text.replace("</mujoco>", "\n<sensor/><visual/></mujoco>"));
     let expected = [
-        "line 9, <tendon>: <tendon> is not read",
+        "line 9, <sensor>: <sensor> is not read",
         "line 2, <camera>: <camera> is not read inside of <worldbody>",
         "line 3, <body>: euler has 2 numbers instead of 3",
         "line 4, <joint>: an axis without length: z is taken",

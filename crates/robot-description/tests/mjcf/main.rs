@@ -2,6 +2,7 @@
 
 mod actuators;
 mod faults;
+mod tendons;
 mod touching;
 
 use nalgebra::Vector3;

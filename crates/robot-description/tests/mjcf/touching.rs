@@ -139,3 +139,13 @@ fn planes_are_touched_where_they_are_nearest() {
         "{plane}"
     );
 }
+
+#[test]
+fn pairs_have_their_own_friction() {
+    let text = r#"<mujoco><default><pair friction="0.7"/></default><worldbody><geom name="floor" type="plane" size="1 1 1"/>
+        <body name="a"><freejoint/><geom name="a" size="1"/></body><body name="b"><freejoint/><geom name="b" size="1"/></body></worldbody>
+        <contact><pair geom1="b" geom2="a" friction="0.25 1"/><pair geom1="floor" geom2="a"/><pair geom1="floor" geom2="b" condim="1"/><pair geom1="floor" geom2="c"/></contact></mujoco>"#;
+    let model = read(text).value;
+    let expected = [([1, 2], 0.25), ([0, 1], 0.7), ([0, 2], 0.0)];
+    assert_eq!(model.pair_frictions, expected);
+}

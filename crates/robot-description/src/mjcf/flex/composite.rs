@@ -30,15 +30,21 @@ pub(super) fn read<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<
         "rope" => rope(reader, element, &attributes)?,
         "grid" | "cloth" => net(reader, element, &attributes)?,
         "box" | "cylinder" | "ellipsoid" => solid(reader, element, &attributes)?,
-        other => {
-            let text = format!("composites of type '{}' are not read", short(other));
-            return Err(text);
-        }
+        other => return Err(refusal(other)),
     };
     flex.name = attributes.get("prefix").unwrap_or_default().to_owned();
     flex.line = element.line;
     place(reader, &attributes, &mut flex);
     Ok(flex)
+}
+
+/// Why composites of a type are not read.
+fn refusal(kind: &str) -> Refusal {
+    match kind {
+        "particle" => "particles are bodies that nothing holds together, not a soft thing: bodies with a <freejoint> are read".into(),
+        "loop" => "a loop is a line of nodes without ends, which ropes have: it is not read".into(),
+        other => format!("composites of type '{}' are not read", short(other)),
+    }
 }
 
 /// Moves the nodes by `offset` and the orientation.

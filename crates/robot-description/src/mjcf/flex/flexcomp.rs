@@ -1,11 +1,11 @@
-//! `<flexcomp>`: a grid of nodes.
+//! `<flexcomp>`: nodes with what holds them together.
 
 use nalgebra::Point3;
 
 use super::grid::{Grid, surface};
 use super::holding::Holding;
+use super::nodes::{self, Elements, Nodes};
 use super::{Flex, FlexForm, FlexPin, Reader, Refusal, positive, within};
-use crate::mjcf::attributes::Attributes;
 use crate::mjcf::element::Element;
 use crate::xml::short;
 
@@ -32,34 +32,29 @@ struct Material {
 pub(super) fn read<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Flex, Refusal> {
     let attributes = reader.attributes(element);
     reader.leave_out_others(element, READ);
-    let grid = grid(reader, &attributes)?;
+    let nodes = nodes::read(reader, &attributes)?;
+    let count = nodes.points.len();
     let mass = positive("mass", reader.number(&attributes, "mass", 1.0))?;
     let radius = positive("radius", reader.number(&attributes, "radius", 0.005))?;
-    let edges = edges(
-        reader,
-        element,
-        mass / grid.count.iter().product::<usize>() as f64,
-    );
+    let edges = edges(reader, element, mass / count as f64);
     let material = material(reader, element)?;
     if edges.stiffness == 0.0 && material.young == 0.0 {
         return Err("it has neither edges nor elasticity that hold its nodes together".into());
     }
-    let form = form(&grid, radius, edges, material);
     let ratio = if material.young > 0.0 {
         material.damping
     } else {
         edges.ratio()
     };
     let pose = reader.pose(&attributes);
-    let points = grid.points().into_iter();
+    let points = nodes.points.iter();
     let mut flex = Flex {
         name: attributes.get("name").unwrap_or_default().to_owned(),
         points: points
-            .map(|point| (pose * Point3::from(point)).into())
+            .map(|point| (pose * Point3::from(*point)).into())
             .collect(),
-        count: grid.count,
-        nodes: (0..grid.count.iter().product()).collect(),
-        form,
+        count: nodes.count,
+        nodes: (0..count).collect(),
         radius,
         mass,
         damping: ratio,
@@ -70,39 +65,13 @@ pub(super) fn read<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<
         line: element.line,
         ..Flex::default()
     };
+    flex.pins = pins(reader, element, &nodes)?;
+    flex.form = form(nodes, radius, edges, material);
     contact(reader, element, &mut flex);
-    flex.pins = pins(reader, element, &grid)?;
     if attributes.is_true("rigid") == Some(true) {
         flex.pins = flex.nodes.iter().copied().map(pin).collect();
     }
     Ok(flex)
-}
-
-fn grid(reader: &mut Reader, attributes: &Attributes) -> Result<Grid, Refusal> {
-    match attributes.get("type").unwrap_or("grid") {
-        "grid" => {}
-        other => return Err(format!("flexcomps of type '{}' are not read", short(other))),
-    }
-    let grid = Grid {
-        count: reader.count(attributes, 10.0)?,
-        spacing: attributes.numbers(reader.report, "spacing", [0.02; 3]),
-    };
-    for axis in grid.axes() {
-        within("spacing", grid.spacing[axis], 1e-6..1e3)?;
-    }
-    let dimension = grid.dimension();
-    let said = reader.number(attributes, "dim", dimension as f64);
-    if dimension == 0 || said != dimension as f64 {
-        let count = grid.count;
-        return Err(format!(
-            "its count, {count:?}, does not have dimension {said}"
-        ));
-    }
-    if let Some(dof @ ("trilinear" | "quadratic" | "radial")) = attributes.get("dof") {
-        let text = format!("dof '{dof}': each node moves by itself");
-        reader.report.warn(attributes.element, text);
-    }
-    Ok(grid)
 }
 
 fn edges<'a>(reader: &mut Reader<'a>, element: &'a Element, node_mass: f64) -> Holding {
@@ -164,28 +133,26 @@ pub(super) fn config(reader: &mut Reader, plugin: &Element, key: &str) -> Option
     reader.report.numbers(setting, key, text).first().copied()
 }
 
-fn form(grid: &Grid, radius: f64, edges: Holding, material: Material) -> FlexForm {
-    let spacing = grid.mean_spacing();
-    match grid.dimension() {
-        1 => {
+fn form(nodes: Nodes, radius: f64, edges: Holding, material: Material) -> FlexForm {
+    match nodes.elements {
+        Elements::Line => {
             let area = std::f64::consts::PI * radius * radius;
-            let stretch = edges.stiffness * spacing + material.young * area;
+            let stretch = edges.stiffness * nodes.spacing + material.young * area;
             let bend = stretch * 0.25 * radius * radius * SLACKNESS;
             FlexForm::Line {
                 stretch,
                 bend,
                 twist: bend,
-                straight: true,
+                straight: nodes.grid.is_some(),
             }
         }
-        2 => sheet(grid, edges, material),
-        _ => {
-            let tetrahedra = grid.tetrahedra();
+        Elements::Triangles(triangles) => sheet(triangles, edges, material),
+        Elements::Tetrahedra(tetrahedra) => {
             let is_material = material.young > 0.0;
             FlexForm::Solid {
                 triangles: surface(&tetrahedra),
                 tetrahedra,
-                young: material.young + SOLID_OF_EDGES[0] * edges.stiffness / spacing,
+                young: material.young + SOLID_OF_EDGES[0] * edges.stiffness / nodes.spacing,
                 poisson: if is_material {
                     material.poisson
                 } else {
@@ -196,7 +163,7 @@ fn form(grid: &Grid, radius: f64, edges: Holding, material: Material) -> FlexFor
     }
 }
 
-fn sheet(grid: &Grid, edges: Holding, material: Material) -> FlexForm {
+fn sheet(triangles: Vec<[u32; 3]>, edges: Holding, material: Material) -> FlexForm {
     let Material {
         poisson, thickness, ..
     } = material;
@@ -207,7 +174,7 @@ fn sheet(grid: &Grid, edges: Holding, material: Material) -> FlexForm {
     // What only bends keeps its lengths.
     let least = if edges.stiffness == 0.0 { stretch } else { 0.0 };
     FlexForm::Sheet {
-        triangles: grid.triangles(),
+        triangles,
         stretch: (PLANE_OF_EDGES[0] * edges.stiffness + of_material).max(least),
         bend: if is_bent { bend } else { 0.0 },
         poisson: if is_stretched {
@@ -240,10 +207,10 @@ fn pin(node: usize) -> FlexPin {
 fn pins<'a>(
     reader: &mut Reader<'a>,
     element: &'a Element,
-    grid: &Grid,
+    of: &Nodes,
 ) -> Result<Vec<FlexPin>, Refusal> {
     let mut nodes = Vec::new();
-    let count = grid.count.iter().product::<usize>();
+    let count = of.points.len();
     for child in element.named("pin") {
         for (name, text) in &child.attributes {
             let numbers = indices(name, text)?;
@@ -254,8 +221,11 @@ fn pins<'a>(
                     let ends = pairs.iter().map(|[from, to]| *from..(*to + 1).min(count));
                     nodes.extend(ends.flatten());
                 }
-                "grid" => nodes.extend(block(grid, numbers, 1)),
-                "gridrange" => nodes.extend(block(grid, numbers, 2)),
+                "grid" | "gridrange" => {
+                    let corners = if name == "grid" { 1 } else { 2 };
+                    let grid = of.grid.as_ref().ok_or("its nodes are no grid")?;
+                    nodes.extend(block(grid, numbers, corners));
+                }
                 _ => reader
                     .report
                     .leave_out(child, format!("'{}' is not read", short(name))),

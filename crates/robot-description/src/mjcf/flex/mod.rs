@@ -7,8 +7,10 @@ mod composite;
 mod flexcomp;
 mod grid;
 mod holding;
+mod nodes;
 mod section;
 
+use super::Files;
 use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
@@ -129,6 +131,8 @@ impl Flex {
 pub struct Reader<'a> {
     pub document: &'a Document,
     pub report: &'a mut Report,
+    /// Where meshes are read from.
+    pub files: &'a mut dyn Files,
     /// The name of the link, by which old composites say which of their nodes it is.
     pub link_name: &'a str,
 }

@@ -145,7 +145,7 @@ fn pins_are_numbers_ranges_and_places() {
 #[test]
 fn what_describes_nothing_soft_is_refused() {
     for (attributes, inside, reason) in [
-        ("type='mesh'", "", "flexcomps of type 'mesh' are not read"),
+        ("type='gmsh'", "", "flexcomps of type 'gmsh' are not read"),
         (
             "count='3 3 1'",
             "",
@@ -360,6 +360,8 @@ fn files_name_soft_things_in_bodies() {
     let said: Vec<String> = parsed.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         said,
-        ["line 3, <composite>: composites of type 'loop' are not read"]
+        [
+            "line 3, <composite>: a loop is a line of nodes without ends, which ropes have: it is not read"
+        ]
     );
 }
