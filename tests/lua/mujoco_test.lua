@@ -137,14 +137,95 @@ describe('an injection', function()
         assert.same(before, sim.getArrayParam(sim.arrayparam_gravity))
     end)
 
+    it('of a tendon lets the heavier mass lift the lighter one', function()
+        -- Atwood's machine over two sliders: a = g (m1 - m2) / (m1 + m2).
+        local function slider(name, x, mass)
+            local base = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+            sim.setObjectPosition(base, {x, 5, 3})
+            local joint = sim.createJoint(sim.joint_prismatic, sim.jointmode_dynamic, 0)
+            sim.setObjectAlias(joint, name)
+            sim.setJointInterval(joint, false, {-5, 10})
+            sim.setObjectInt32Param(joint, sim.jointintparam_dynctrlmode, sim.jointdynctrl_free)
+            sim.setObjectParent(joint, base, false)
+            local body = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+            sim.setObjectInt32Param(body, sim.shapeintparam_static, 0)
+            sim.setShapeMass(body, mass)
+            sim.setObjectParent(body, joint, false)
+            return joint
+        end
+        local one, two = slider('one', 0, 2), slider('two', 1, 1)
+        local id = simMujoco.addInjection {
+            element = 'tendon', xml = '<fixed name="rope" range="0 0"><joint joint="one" coef="1"/><joint joint="two" coef="1"/></fixed>',
+        }
+        t.run_for(0.5)
+        near(9.81 / 3 * 0.125, sim.getJointPosition(two), 0.03)
+        near(0, sim.getJointPosition(one) + sim.getJointPosition(two), 1e-6)
+        simMujoco.removeInjection(id)
+        assert.equal(-1, sim.getObject('/rope', {noError = true}))
+    end)
+
+    it('of a string with a motor between sites pulls a body up', function()
+        sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+        sim.setShapeMass(box, 1)
+        simMujoco.addInjection {element = 'worldbody', xml = '<site name="top" pos="0 0 5"/>'}
+        simMujoco.addInjection {shapeHandle = box, xml = '<site name="hook"/>'}
+        simMujoco.addInjection {
+            element = 'mujoco',
+            xml = '<actuator><motor tendon="string" ctrlrange="-100 0"/></actuator><tendon><spatial name="string"><site site="top"/><site site="hook"/></spatial></tendon>',
+        }
+        t.run_for(0.05)
+        sim.setFloatProperty(sim.getObject('/string'), 'customData.targetForce', -9.81 - 2)
+        local before = sim.getObjectPosition(box)[3]
+        t.run_for(0.5)
+        -- It has fallen freely for a step.
+        near(-9.81 * 0.05 * 0.5 + 2 * 0.125, sim.getObjectPosition(box)[3] - before, 0.01)
+    end)
+
+    it('of contacts and joints changes what there is, and sets it back', function()
+        local floor = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {2, 2, 0.1})
+        sim.setObjectAlias(floor, 'ground')
+        sim.setObjectPosition(floor, {0, 0, 1.9})
+        for _, shape in ipairs {floor, box} do sim.setObjectInt32Param(shape, sim.shapeintparam_respondable, 1) end
+        sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+        local id = simMujoco.addInjection {element = 'contact', xml = '<exclude body1="crate" body2="ground"/>'}
+        t.run_for(0.3)
+        assert.is_true(sim.getObjectPosition(box)[3] < 1.7, sim.getObjectPosition(box)[3])
+        simMujoco.removeInjection(id)
+        sim.setObjectPosition(box, {0, 0, 2})
+        t.run_for(0.3)
+        near(2, sim.getObjectPosition(box)[3], 1e-2)
+
+        local joint = sim.createJoint(sim.joint_revolute, sim.jointmode_dynamic, 0)
+        sim.setObjectAlias(joint, 'hinge')
+        id = simMujoco.addInjection {element = 'worldbody', xml = '<joint name="hinge" armature="0.5" damping="2"/>'}
+        t.run_for(0.05)
+        assert.equal(0.5, sim.getFloatProperty(joint, 'mujoco.armature'))
+        assert.equal(2, sim.getFloatProperty(joint, 'mujoco.springDamping'))
+        simMujoco.removeInjection(id)
+        assert.equal(0, sim.getFloatProperty(joint, 'mujoco.armature'))
+    end)
+
+    it('of adhesion lets a shape hang under another one', function()
+        local ceiling = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {2, 2, 0.1})
+        sim.setObjectPosition(ceiling, {0, 0, 2.1})
+        for _, shape in ipairs {ceiling, box} do sim.setObjectInt32Param(shape, sim.shapeintparam_respondable, 1) end
+        sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+        sim.setShapeMass(box, 1)
+        simMujoco.addInjection {element = 'actuator', xml = '<adhesion body="crate" gain="10" ctrlrange="0 5"/>'}
+        sim.setFloatProperty(box, 'mujoco.adhesionctrl', 2)
+        t.run_for(0.5)
+        near(2, sim.getObjectPosition(box)[3], 5e-3)
+    end)
+
     it('names what has no counterpart, once', function()
-        simMujoco.injectXML('<tendon><spatial/></tendon><option integrator="RK4"/>', 'mujoco')
+        simMujoco.injectXML('<sensor/><tendon><fixed><joint joint="nowhere" coef="1"/></fixed></tendon><option integrator="RK4"/>', 'mujoco')
         simMujoco.addInjection {shapeHandle = box, xml = '<geom size="1"/><geom size="2"/>'}
         t.run_for(0.2)
         local texts = {}
         for _, line in ipairs(t.logs 'simMujoco') do texts[#texts + 1] = line.text end
-        assert.equal(3, #texts, table.concat(texts, '; '))
-        for i, name in ipairs {'<tendon> of injection 1', '<option integrator> of injection 1', '<geom> of injection 2'} do
+        assert.equal(4, #texts, table.concat(texts, '; '))
+        local names = {'<tendon> (it is over what is not there) of injection 1', '<sensor> of injection 1', '<option integrator> of injection 1', '<geom> of injection 2'}
+        for i, name in ipairs(names) do
             assert.is_truthy(texts[i]:find(name .. ' has no counterpart, and is ignored', 1, true), texts[i])
         end
     end)
@@ -193,11 +274,15 @@ describe('what makes no sense', function()
         {'a mass that is a text', function() simMujoco.addFlexcomp(net {mass = 'much'}) end, "invalid value of 'mass'."},
         {'a pose without a rotation', function() simMujoco.addFlexcomp(net {pose = {0, 0, 0, 0, 0, 0, 0}}) end, "invalid value of 'pose'."},
         {'a pin too many', function() simMujoco.addFlexcomp(net {pin = {25}}) end, '<flexcomp>: it has no node 25 that could be pinned.'},
-        {'another type', function() simMujoco.addFlexcomp(net {type = 'mesh'}) end, "<flexcomp>: flexcomps of type 'mesh' are not read."},
+        {'another type', function() simMujoco.addFlexcomp(net {type = 'gmsh'}) end, "<flexcomp>: flexcomps of type 'gmsh' are not read."},
         {'XML that is none', function() simMujoco.addInjection {element = 'mujoco', xml = '<option'} end, 'xml: no valid XML'},
         {'no XML', function() simMujoco.addInjection {element = 'mujoco', xml = ''} end, 'xml: there is no element in it.'},
         {'no composite', function() simMujoco.composite('<geom/>', {element = 'worldbody', prefix = 'a'}) end, 'xml: there is not one <composite> in it.'},
         {'a gravity of words', function() simMujoco.addInjection {element = 'mujoco', xml = '<option gravity="down"/>'} end, "<option>: gravity is 'down'."},
+        {'a tendon without joints', function() simMujoco.addInjection {element = 'tendon', xml = '<fixed/>'} end, '<fixed>: it has no joints.'},
+        {'a motor that moves nothing', function() simMujoco.addInjection {element = 'actuator', xml = '<motor/>'} end, '<motor>: an actuator that moves no joint'},
+        {'an exclusion of one', function() simMujoco.addInjection {element = 'contact', xml = '<exclude body1="a"/>'} end, '<exclude>: it has no body1 and body2.'},
+        {'a damping of words', function() simMujoco.addInjection {element = 'worldbody', xml = '<joint name="a" damping="much"/>'} end, "<joint>: damping is 'much'."},
         {'no table', function() simMujoco.addFlexcomp(5) end, 'table'},
         {'an unknown question', function() simMujoco.getInfo('all') end, "'what' is neither"},
     }

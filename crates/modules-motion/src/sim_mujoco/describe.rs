@@ -1,12 +1,13 @@
 //! What an injection means: soft things, constraints, settings, and what has no counterpart.
 
-use robot_description::mjcf::{Element, Flex};
+use robot_description::Warning;
+use robot_description::mjcf::{Actuator, Adhesion, Element, Flex, Tendon, pose_of_element};
 
 use super::info::{elements, flexcomp, text, whole};
 use super::names;
-use super::{Cx, Result, refused};
+use super::{ApiError, Cx, Result, refused};
 use format::robot_file::SoftShape;
-use scene::{Data, Handle};
+use scene::{Data, Handle, Pose};
 
 /// Settings of `<option>` that act.
 const GRAVITY: &str = "gravity";
@@ -40,7 +41,57 @@ pub(super) enum Act {
     Gravity([f64; 3]),
     /// Seconds.
     Step(f64),
+    Tendon(Tendon),
+    Site(Site),
+    Joint(JointChange),
+    Actuator(Actuator, [String; 2]),
+    Adhesion(Adhesion, String),
+    Pair(Pair),
 }
+
+impl Act {
+    /// The order in which they are done: what others name comes first.
+    pub(super) fn rank(&self) -> u8 {
+        match self {
+            Self::Site(_) => 0,
+            Self::Tendon(_) => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// A dummy below what the injection is on.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Site {
+    pub name: String,
+    pub pose: Pose,
+}
+
+/// What is said of a joint that there is, by the names of the attributes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct JointChange {
+    pub name: String,
+    pub values: Vec<(&'static str, f64)>,
+}
+
+/// Two shapes, and how they touch.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Pair {
+    pub names: [String; 2],
+    pub touches: bool,
+    pub friction: Option<f64>,
+    /// The element, as it is named.
+    pub element: String,
+}
+
+/// Attributes of `<joint>` that act.
+const OF_JOINT: [&str; 5] = [
+    "armature",
+    "damping",
+    "frictionloss",
+    "stiffness",
+    "springref",
+];
 
 /// Two bodies that are held together.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +182,7 @@ fn holder(cx: &Cx, info: &Data) -> Result<Option<Handle>> {
 impl Described {
     fn add(&mut self, element: &Element, body: &str, mask: Option<i64>) -> Result<()> {
         match element.name.as_str() {
-            "worldbody" | "equality" => {
+            "worldbody" | "equality" | "tendon" | "contact" | "actuator" => {
                 for child in &element.children {
                     self.add(child, body, mask)?;
                 }
@@ -139,19 +190,99 @@ impl Described {
             "flexcomp" | "composite" => self.add_soft(element, body, mask)?,
             "connect" | "weld" => self.add_hold(element),
             "option" => self.add_option(element)?,
+            "spatial" | "fixed" => {
+                let (tendon, warnings) = Tendon::of_element(element).map_err(of(element))?;
+                self.name_all(&warnings);
+                self.acts.push(Act::Tendon(tendon));
+            }
+            "motor" | "position" | "velocity" | "general" => {
+                let read = Actuator::of_element(element).map_err(of(element))?;
+                let (actuator, moved, warnings) = read;
+                self.name_all(&warnings);
+                self.acts.push(Act::Actuator(actuator, moved));
+            }
+            "adhesion" => {
+                let (adhesion, body) = Adhesion::of_element(element).map_err(of(element))?;
+                self.acts.push(Act::Adhesion(adhesion, body));
+            }
+            "exclude" => self.add_pair(element, ["body1", "body2"])?,
+            "pair" => self.add_pair(element, ["geom1", "geom2"])?,
+            "site" => self.add_site(element),
+            "joint" if element.attribute("name").is_some() => self.add_joint(element)?,
             _ => self.unknown.push(format!("<{}>", element.name)),
         }
         Ok(())
     }
 
-    fn add_soft(&mut self, element: &Element, body: &str, mask: Option<i64>) -> Result<()> {
-        let of_element = |reason: String| refused(format!("<{}>: {reason}.", element.name));
-        let (flex, warnings) = Flex::of_element(element, body).map_err(of_element)?;
+    /// Names what has no counterpart of something that has one.
+    fn name_all(&mut self, warnings: &[Warning]) {
         let told = warnings
             .iter()
             .map(|warning| format!("<{}> ({})", warning.element, warning.message));
         self.unknown.extend(told);
-        let mut shape = SoftShape::new(&flex).map_err(of_element)?;
+    }
+
+    fn add_site(&mut self, element: &Element) {
+        let (pose, warnings) = pose_of_element(element);
+        self.name_all(&warnings);
+        let name = element.attribute("name").unwrap_or("site").to_owned();
+        self.acts.push(Act::Site(Site { name, pose }));
+    }
+
+    fn add_pair(&mut self, element: &Element, keys: [&str; 2]) -> Result<()> {
+        let [Some(one), Some(other)] = keys.map(|key| element.attribute(key)) else {
+            let [one, other] = keys;
+            return Err(refused(format!(
+                "<{}>: it has no {one} and {other}.",
+                element.name
+            )));
+        };
+        let touches = element.name == "pair";
+        let friction = element.attribute("friction").map(|text| {
+            let first = text
+                .split_whitespace()
+                .next()
+                .and_then(|word| word.parse().ok());
+            let friction = first.filter(|x: &f64| x.is_finite() && *x >= 0.0);
+            friction.ok_or_else(|| refused(format!("<pair>: friction is '{text}'.")))
+        });
+        let friction = match element.attribute("condim") {
+            Some("1") => Some(0.0),
+            _ => friction.transpose()?,
+        };
+        self.acts.push(Act::Pair(Pair {
+            names: [one.to_owned(), other.to_owned()],
+            touches,
+            friction: friction.filter(|_| touches),
+            element: format!("<{}>", element.name),
+        }));
+        Ok(())
+    }
+
+    /// Attributes of a joint that there is.
+    fn add_joint(&mut self, element: &Element) -> Result<()> {
+        let (mut name, mut values) = (String::new(), Vec::new());
+        for (key, text) in &element.attributes {
+            if key == "name" {
+                name.clone_from(text);
+                continue;
+            }
+            let Some(known) = OF_JOINT.iter().find(|known| *known == key) else {
+                self.unknown.push(format!("<joint {key}>"));
+                continue;
+            };
+            let number = text.parse().ok().filter(|x: &f64| x.is_finite());
+            let wrong = || refused(format!("<joint>: {key} is '{text}'."));
+            values.push((*known, number.ok_or_else(wrong)?));
+        }
+        self.acts.push(Act::Joint(JointChange { name, values }));
+        Ok(())
+    }
+
+    fn add_soft(&mut self, element: &Element, body: &str, mask: Option<i64>) -> Result<()> {
+        let (flex, warnings) = Flex::of_element(element, body).map_err(of(element))?;
+        self.name_all(&warnings);
+        let mut shape = SoftShape::new(&flex).map_err(of(element))?;
         if let Some(mask) = mask {
             shape = shape.with_mask(mask);
         }
@@ -194,6 +325,11 @@ impl Described {
             .extend(children.map(|child| format!("<{}>", child.name)));
         Ok(())
     }
+}
+
+/// Why an element is not read, as an error.
+fn of(element: &Element) -> impl Fn(String) -> ApiError + '_ {
+    |reason| refused(format!("<{}>: {reason}.", element.name))
 }
 
 /// Three numbers of a text.

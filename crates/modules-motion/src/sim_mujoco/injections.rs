@@ -6,6 +6,7 @@ use std::rc::{Rc, Weak};
 
 use robot_description::mjcf::Flex;
 
+use super::acts::Undo;
 use super::describe::{Described, Kind};
 use scene::{Data, Handle};
 use script::ScriptCallback;
@@ -53,6 +54,8 @@ pub(super) struct Made {
     pub objects: Vec<Handle>,
     /// Nodes of soft things that it holds.
     pub pins: Vec<(Handle, usize)>,
+    /// Objects that it has changed, as they were before.
+    pub undo: Vec<Undo>,
     /// Settings from before: gravity and step.
     pub gravity: Option<[f32; 3]>,
     pub step: Option<f64>,

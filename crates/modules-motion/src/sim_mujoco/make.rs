@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::describe::{Act, Described, Hold, describe};
 use super::injections::{Injection, Injections, Made, State};
-use super::{Cx, Result, names};
+use super::{Cx, Result, acts, names};
 use format::robot_file::{SoftShape, pin_nodes};
 use robot_description::mjcf::Flex;
 use scene::joint::{Joint, JointMode, JointType};
@@ -15,7 +15,7 @@ use scene::{Data, Field, Handle, Kind, Layers, Pose};
 use script::log::verbosity;
 
 /// Displayed size of what holds bodies together, metres.
-const DUMMY: f64 = 0.01;
+pub(super) const DUMMY: f64 = 0.01;
 
 /// Makes the objects of all injections that have none. Soft things are first, since constraints may name them.
 pub(super) fn make_pending(cx: &mut Cx) -> Result<()> {
@@ -94,7 +94,9 @@ fn make_soft(cx: &mut Cx, flex: &Flex, made: SoftShape, holder: Option<Handle>) 
 }
 
 /// Does what an injection does beside soft things.
-fn act(cx: &mut Cx, id: i64, described: Described) -> Result<()> {
+fn act(cx: &mut Cx, id: i64, mut described: Described) -> Result<()> {
+    // Sites and tendons are there when others name them.
+    described.acts.sort_by_key(Act::rank);
     for act in described.acts {
         let made = match act {
             Act::Hold(hold) => {
@@ -106,6 +108,7 @@ fn act(cx: &mut Cx, id: i64, described: Described) -> Result<()> {
             }
             Act::Gravity(gravity) => Some(set_gravity(cx, gravity)),
             Act::Step(step) => Some(set_step(cx, step)),
+            other => act_on_objects(cx, id, &other, described.holder)?,
         };
         let injections = cx.module_state::<Injections>();
         injections.change(id, |one| one.made.add(made.unwrap_or_default()));
@@ -116,10 +119,28 @@ fn act(cx: &mut Cx, id: i64, described: Described) -> Result<()> {
     Ok(())
 }
 
+/// Adds dummies, and changes objects that there are; None where that has no counterpart.
+fn act_on_objects(cx: &mut Cx, id: i64, act: &Act, holder: Option<Handle>) -> Result<Option<Made>> {
+    let (outcome, name) = match act {
+        Act::Site(site) => (acts::add_site(cx, site, holder)?, "<site>"),
+        Act::Tendon(tendon) => (acts::add_tendon(cx, tendon)?, "<tendon>"),
+        Act::Joint(change) => (acts::change_joint(cx, change)?, "<joint>"),
+        Act::Actuator(actuator, moved) => (acts::add_actuator(cx, actuator, moved)?, "<actuator>"),
+        Act::Adhesion(adhesion, body) => (acts::add_adhesion(cx, adhesion, body)?, "<adhesion>"),
+        Act::Pair(pair) => (acts::add_pair(cx, pair)?, pair.element.as_str()),
+        Act::Hold(_) | Act::Gravity(_) | Act::Step(_) => return Ok(None),
+    };
+    if let Err(reason) = &outcome {
+        name_unknown(cx, id, &format!("{name} ({reason})"));
+    }
+    Ok(outcome.ok())
+}
+
 impl Made {
     fn add(&mut self, more: Self) {
         self.objects.extend(more.objects);
         self.pins.extend(more.pins);
+        self.undo.extend(more.undo);
         self.gravity = self.gravity.or(more.gravity);
         self.step = self.step.or(more.step);
     }
@@ -272,7 +293,13 @@ fn anchor() -> Result<Kind> {
 }
 
 /// Adds an object that is not shown.
-fn add(cx: &mut Cx, alias: &str, kind: Kind, pose: Pose, parent: Option<Handle>) -> Result<Handle> {
+pub(super) fn add(
+    cx: &mut Cx,
+    alias: &str,
+    kind: Kind,
+    pose: Pose,
+    parent: Option<Handle>,
+) -> Result<Handle> {
     let handle = cx.add_object(alias, kind)?;
     let mut scene = cx.scene_mut();
     scene.set_world_pose(handle, pose)?;
@@ -286,6 +313,7 @@ fn add(cx: &mut Cx, alias: &str, kind: Kind, pose: Pose, parent: Option<Handle>)
 /// Removes what an injection has become, and sets what it has set back.
 pub(super) fn unmake(cx: &mut Cx, injection: Injection) -> Result<()> {
     let made = injection.made;
+    acts::undo(cx, made.undo)?;
     for (soft, node) in made.pins {
         let pins = cx.scene().object(soft).map(|object| object.pins());
         if let Ok(mut pins) = pins {

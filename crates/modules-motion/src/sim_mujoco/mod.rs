@@ -3,6 +3,7 @@
 //! An injection is read when it is added, so that mistakes are errors of its caller. It becomes objects when the physics is about to move the scene
 //! (`Hooks::before_dynamics`), after its callback; they go with it, with its script, and with the simulation.
 
+mod acts;
 mod describe;
 mod info;
 mod injections;
