@@ -38,6 +38,19 @@ pub enum ContactResponse {
     },
 }
 
+impl ContactResponse {
+    fn of(rule: &PairRule) -> Self {
+        match rule.friction {
+            _ if !rule.touches => Self::NoCollision,
+            Some(friction) => Self::Collide {
+                friction,
+                restitution: 0.0,
+            },
+            None => Self::Default,
+        }
+    }
+}
+
 /// Called once per pair of shapes and sub-step.
 pub type ContactCallback<'a> = &'a dyn Fn(Handle, Handle) -> ContactResponse;
 
@@ -77,10 +90,10 @@ impl Verdicts {
 
     /// Adds what shapes say of pairs, which counts whatever masks and scripts say.
     pub(super) fn add_rules(&mut self, rules: &[PairRule]) {
-        for PairRule { shapes, response } in rules {
-            let [a, b] = *shapes;
-            self.special.insert((a, b), *response);
-            self.special.insert((b, a), *response);
+        for rule in rules {
+            let ([a, b], response) = (rule.shapes, ContactResponse::of(rule));
+            self.special.insert((a, b), response);
+            self.special.insert((b, a), response);
         }
     }
 
@@ -324,7 +337,7 @@ fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Ve
             continue;
         };
         let response = verdicts.response(Tag::unpack(first.tag), Tag::unpack(second.tag));
-        let is_carried = surfaces.concern([first.tag, second.tag]);
+        let is_carried = surfaces.concern([first.body, second.body]);
         if response != ContactResponse::Default || first.friction(second) == 0.0 || is_carried {
             ask(pair_of([pair.collider1, pair.collider2]));
         }

@@ -248,7 +248,7 @@ impl Dynamics {
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
         contacts::note_colliders(world);
-        world.surfaces = Arc::new(MovingSurfaces::of(&self.bodies));
+        world.surfaces = Arc::new(MovingSurfaces::new(self.bodies.carrying()));
         let_sleep(&self.bodies, &self.links, world);
         self.soft_bodies
             .apply_plan(plan.soft, &self.bodies, world, scene);

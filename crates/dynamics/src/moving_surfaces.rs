@@ -6,32 +6,35 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 use rapier3d_f64::math::Vector;
-use rapier3d_f64::prelude::{Collider, ContactModificationContext, RigidBodySet};
+use rapier3d_f64::prelude::{Collider, ContactModificationContext, RigidBodyHandle, RigidBodySet};
 
-use super::bodies::{Bodies, Tag};
 use super::convert::to_vector;
-use scene::Handle;
 use scene::shape::MovingSurface;
 
-/// The surfaces by their shapes.
+/// The surfaces by their bodies.
 #[derive(Default)]
-pub(super) struct MovingSurfaces(BTreeMap<Handle, MovingSurface>);
+pub(super) struct MovingSurfaces(BTreeMap<(u32, u32), MovingSurface>);
 
 impl MovingSurfaces {
-    pub(super) fn of(bodies: &Bodies) -> Self {
-        let moving = bodies.iter().filter(|(_, body)| body.build.dynamic);
-        let surfaces = moving.filter_map(|(shape, body)| Some((shape, body.surface_motion()?)));
-        Self(surfaces.collect())
+    /// Those of bodies that move.
+    pub(super) fn new(all: impl Iterator<Item = (RigidBodyHandle, MovingSurface)>) -> Self {
+        Self(
+            all.map(|(body, surface)| (body.into_raw_parts(), surface))
+                .collect(),
+        )
     }
 
     pub(super) fn are_none(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether one of two colliders has such a surface.
-    pub(super) fn concern(&self, tags: [u128; 2]) -> bool {
-        let has = |tag: u128| self.0.contains_key(&Tag::unpack(tag).shape);
-        !self.are_none() && tags.into_iter().any(has)
+    /// Whether one of two bodies has such a surface.
+    pub(super) fn concern(&self, bodies: [Option<RigidBodyHandle>; 2]) -> bool {
+        !self.are_none() && bodies.into_iter().any(|body| self.get(body).is_some())
+    }
+
+    fn get(&self, body: Option<RigidBodyHandle>) -> Option<&MovingSurface> {
+        self.0.get(&body?.into_raw_parts())
     }
 
     /// The velocity of the second surface against the first one at a point, along the plane with that normal, m/s, as far as it is not that of the bodies.
@@ -51,7 +54,7 @@ impl MovingSurfaces {
     }
 
     fn of_collider(&self, collider: &Collider, bodies: &RigidBodySet, place: Vector) -> Vector {
-        let surface = self.0.get(&Tag::unpack(collider.user_data).shape);
+        let surface = self.get(collider.parent());
         let rigid = collider.parent().and_then(|body| bodies.get(body));
         let (Some(surface), Some(rigid)) = (surface, rigid) else {
             return Vector::ZERO;
@@ -70,7 +73,7 @@ impl MovingSurfaces {
         else {
             return;
         };
-        if !self.concern([first.user_data, second.user_data]) {
+        if !self.concern([first.parent(), second.parent()]) {
             return;
         }
         let bodies = context.bodies;

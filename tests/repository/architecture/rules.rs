@@ -85,11 +85,22 @@ const DYNAMICS: Rooms = &[
     ("actuators", &["motors"]),
     ("free_rotation", &[]),
     ("fluid", &[]),
-    ("world", &["free_rotation"]),
+    ("moving_surfaces", &["convert"]),
+    ("world", &["free_rotation", "moving_surfaces"]),
     ("plan", &["frozen"]),
     ("bodies", &["convert", "fluid", "plan", "world"]),
     ("flat_faces", &[]),
-    ("contacts", &["bodies", "convert", "flat_faces", "world"]),
+    (
+        "contacts",
+        &[
+            "bodies",
+            "convert",
+            "flat_faces",
+            "moving_surfaces",
+            "plan",
+            "world",
+        ],
+    ),
     ("near", &["bodies", "contacts", "free_rotation", "world"]),
     ("load", &["convert", "plan", "world"]),
     (
@@ -105,6 +116,18 @@ const DYNAMICS: Rooms = &[
         ],
     ),
     (
+        "tendons",
+        &[
+            "actuators",
+            "bodies",
+            "convert",
+            "links",
+            "motors",
+            "plan",
+            "world",
+        ],
+    ),
+    (
         "mechanisms",
         &[
             "bodies",
@@ -114,6 +137,7 @@ const DYNAMICS: Rooms = &[
             "links",
             "near",
             "plan",
+            "tendons",
             "world",
         ],
     ),
@@ -132,7 +156,6 @@ const DYNAMICS: Rooms = &[
     ),
     ("particles", &["bodies", "convert", "world"]),
     ("adhesion", &["bodies", "contacts", "near", "world"]),
-    ("tendons", &["bodies", "convert", "plan", "world"]),
     (
         "sub_step",
         &["adhesion", "contacts", "convert", "soft_bodies", "world"],

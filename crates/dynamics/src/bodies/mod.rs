@@ -25,7 +25,7 @@ use super::world::{ALL_HOOKS, World};
 pub use form_maker::FormMaker;
 pub(crate) use made_forms::Forms;
 use mass::{carrier, mass_properties, massless};
-use scene::shape::{MovingSurface, Velocity};
+use scene::shape::Velocity;
 use scene::{Field, Handle, Pose, Scene};
 use sweeps::has_moved;
 pub(super) use tag::Tag;
@@ -313,11 +313,6 @@ impl Body {
     pub(super) fn is_pushed_by(&self, mask: u8) -> bool {
         let collides = u16::from(mask) << 8 & self.surface.mask != 0;
         self.build.dynamic && self.build.respondable && collides
-    }
-
-    /// How its surface moves along it.
-    pub(crate) fn surface_motion(&self) -> Option<MovingSurface> {
-        self.surface.motion
     }
 
     /// Force with which it adheres to what it touches, N.

@@ -1,8 +1,8 @@
-//! Static bodies that scripts move: they go along with the scene over a call.
+//! Static bodies that scripts move: they go along with the scene over a call. Bodies whose surface moves.
 
 use geometry::Finite;
 use geometry::pose::interpolate;
-use rapier3d_f64::prelude::RigidBodyType;
+use rapier3d_f64::prelude::{RigidBodyHandle, RigidBodyType};
 use scene::shape::{MovingSurface, Velocity};
 use scene::{Pose, Scene};
 
@@ -13,6 +13,12 @@ use crate::world::World;
 /// A static body counts as moved when it moved more than this between two calls, metres and radians.
 const STATIC_TOLERANCE: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
 impl Bodies {
+    /// The bodies that move while their surface moves along them.
+    pub(crate) fn carrying(&self) -> impl Iterator<Item = (RigidBodyHandle, MovingSurface)> {
+        let moving = self.all.iter().filter(|(_, body)| body.build.dynamic);
+        moving.filter_map(|(_, body)| Some((body.rigid, body.surface.motion?)))
+    }
+
     /// Whether a static body moves during this call.
     pub(crate) fn are_sweeping(&self) -> bool {
         !self.sweeping.is_empty()

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::contacts::ContactResponse;
-use scene::shape::ContactPair;
 use scene::{Handle, Scene};
 
 /// What a shape says of itself and another one.
 pub(crate) struct PairRule {
     pub shapes: [Handle; 2],
-    pub response: ContactResponse,
+    pub touches: bool,
+    /// Coefficient of friction of both together; None for that of their materials.
+    pub friction: Option<f64>,
 }
 
 /// The rules of all bodies.
@@ -22,19 +22,9 @@ pub(super) fn rules(scene: &Scene, bodies: &BTreeMap<Handle, bool>) -> Vec<PairR
         };
         rules.extend(object.contact_pairs().into_iter().map(|pair| PairRule {
             shapes: [shape, pair.other],
-            response: response(&pair),
+            touches: pair.touches,
+            friction: pair.friction,
         }));
     }
     rules
-}
-
-fn response(pair: &ContactPair) -> ContactResponse {
-    match pair.friction {
-        _ if !pair.touches => ContactResponse::NoCollision,
-        Some(friction) => ContactResponse::Collide {
-            friction,
-            restitution: 0.0,
-        },
-        None => ContactResponse::Default,
-    }
 }
