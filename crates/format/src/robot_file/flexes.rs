@@ -175,6 +175,11 @@ impl Import<'_> {
                 self.set_custom_data(shape, COLLISION_TREE, yes)?;
             }
             pin_nodes(self.scene, shape, flex, carrier, frame)?;
+            // It touches the ground that it hangs on in the tree; not what moves and carries it.
+            if self.is_fixed(flex.link) {
+                let yes = (ValueType::Bool, Data::Bool(true));
+                self.set_custom_data(shape, COLLISION_TREE, yes)?;
+            }
         }
         Ok(())
     }
@@ -241,6 +246,20 @@ mod tests {
         let hose = named(&scene, "hose");
         assert!(matches!(hose.soft(), Some(Soft::Rope(rope)) if rope.points.len() == 4));
         assert!(hose.pins()[0].holder.is_none() && hose.pins()[0].clamped);
+    }
+
+    /// Soft things of the world are a tree of their own for masks, so that the ground of the file stops them.
+    #[test]
+    fn what_hangs_on_nothing_that_moves_touches_the_ground() {
+        let soft = "<flexcomp name='NAME' type='box' count='3 3 3' mass='1'><edge equality='true'/></flexcomp>";
+        let [free, carried] = ["free", "carried"].map(|name| soft.replace("NAME", name));
+        let (scene, messages) = imported(&format!(
+            "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body>{free}</body><body name='cart'><freejoint/><geom size='0.1'/>{carried}</body></worldbody></mujoco>"
+        ));
+        assert_eq!(messages, [] as [&str; 0]);
+        let tree = |name: &str| scene.collision_root_of(named(&scene, name).handle());
+        assert_eq!(tree("free"), named(&scene, "free").handle());
+        assert_ne!(tree("carried"), named(&scene, "carried").handle());
     }
 
     #[test]
