@@ -4,8 +4,8 @@
 
 --- Pieces of MuJoCo's model, whichever engine the scene selects.
 ---
---- There is no MuJoCo here: soft things become soft shapes as those of simSoft, constraints become pins and loop closures, gravity and time step of `<option>`
---- become those of the scene. What has no counterpart is named once in the log, with the number of the injection. An injection becomes objects when the physics next moves the scene; they go
+--- There is no MuJoCo here: soft things become soft shapes as those of simSoft, constraints become pins and loop closures, tendons and sites become dummies, what is said of joints, bodies and contacts become parameters of objects, gravity and time step of `<option>`
+--- those of the scene. What has no counterpart is named once in the log, with the number of the injection. An injection becomes objects when the physics next moves the scene; they go
 --- with it, with the script that added it, and at the end of the simulation.
 ---
 --- `info` of all of them: `shapeHandle` (a shape) or `element` ('worldbody', or the name of a body as `getInfo` has it): what it is on, in whose frame it is; `callback`: a function, or the name of one, that gets `info` when the
@@ -13,11 +13,12 @@
 local simMujoco = {}
 
 --- Adds something soft: a rope (nodes along one axis), a cloth (two) or a volume (three).
----@param info table beside what all have: `name` (unique), `type` ('grid'), `count` (three numbers of nodes), `spacing` (three distances, m), `radius` (m), `mass` (kg, of all), `pose` (seven numbers), `pin` (nodes that do not move, from 0), `extraFlexcompXml` (attributes of `<flexcomp>` as a text), `extraXml` (elements within it: `<edge>`, `<elasticity>`, `<contact>`, `<pin>`, `<plugin>`)
+---@param info table beside what all have: `name` (unique), `type` ('grid', 'square', 'disc', 'box', 'cylinder', 'ellipsoid', 'direct'), `count` (three numbers of nodes), `spacing` (three distances, m), `radius` (m), `mass` (kg, of all), `pose` (seven numbers), `pin` (nodes that do not move, from 0), `extraFlexcompXml` (attributes of `<flexcomp>` as a text), `extraXml` (elements within it: `<edge>`, `<elasticity>`, `<contact>`, `<pin>`, `<plugin>`)
 ---@return integer injectionId from 1
 function simMujoco.addFlexcomp(info) end
 
---- Adds elements of MJCF: `<flexcomp>`, `<composite>`, `<connect>` and `<weld>`, `<option>` act.
+--- Adds elements of MJCF. These act: `<flexcomp>`, `<composite>`, `<connect>`, `<weld>`, gravity and time step of `<option>`, `<site>`, tendons (`<fixed>`, `<spatial>`), actuators (`motor`, `position`, `velocity`, `general`, `adhesion`),
+--- `<exclude>`, `<pair>`, and `<joint name="...">` of a joint that there is (`armature`, `damping`, `stiffness`, `springref`, `frictionloss`).
 ---@param info table beside what all have: `xml`, the elements
 ---@return integer injectionId from 1
 function simMujoco.addInjection(info) end

@@ -7770,10 +7770,11 @@ class _simIM:
 class _simMujoco:
     def addFlexcomp(self, info: Mapping[Any, Any], /) -> int:
         """Adds something soft: a rope (nodes along one axis), a cloth (two) or a volume (three).
-        info: beside what all have: `name` (unique), `type` ('grid'), `count` (three numbers of nodes), `spacing` (three distances, m), `radius` (m), `mass` (kg, of all), `pose` (seven numbers), `pin` (nodes that do not move, from 0), `extraFlexcompXml` (attributes of `<flexcomp>` as a text), `extraXml` (elements within it: `<edge>`, `<elasticity>`, `<contact>`, `<pin>`, `<plugin>`)
+        info: beside what all have: `name` (unique), `type` ('grid', 'square', 'disc', 'box', 'cylinder', 'ellipsoid', 'direct'), `count` (three numbers of nodes), `spacing` (three distances, m), `radius` (m), `mass` (kg, of all), `pose` (seven numbers), `pin` (nodes that do not move, from 0), `extraFlexcompXml` (attributes of `<flexcomp>` as a text), `extraXml` (elements within it: `<edge>`, `<elasticity>`, `<contact>`, `<pin>`, `<plugin>`)
         """
     def addInjection(self, info: Mapping[Any, Any], /) -> int:
-        """Adds elements of MJCF: `<flexcomp>`, `<composite>`, `<connect>` and `<weld>`, `<option>` act.
+        """Adds elements of MJCF. These act: `<flexcomp>`, `<composite>`, `<connect>`, `<weld>`, gravity and time step of `<option>`, `<site>`, tendons (`<fixed>`, `<spatial>`), actuators (`motor`, `position`, `velocity`, `general`, `adhesion`),
+        `<exclude>`, `<pair>`, and `<joint name="...">` of a joint that there is (`armature`, `damping`, `stiffness`, `springref`, `frictionloss`).
         info: beside what all have: `xml`, the elements
         """
     def composite(self, xml: str, info: Mapping[Any, Any], /) -> int:
