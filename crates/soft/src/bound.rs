@@ -232,7 +232,7 @@ pub(crate) fn placed(
     let (before, now) = (on(&rod.now.places), on(&trials[contact.rod]));
     let moved = surface_displacement(contact, bodies, rods, trials, step);
     Placed {
-        gap: contact
+        distance: contact
             .touch
             .normal
             .dot(&(now - contact.touch.point - moved))

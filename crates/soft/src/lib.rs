@@ -18,7 +18,7 @@
 //!   the response the engine says, which for a robot's hand is that of the whole robot with its motors. The impulses on bodies are those on rods with the opposite sign.
 //! - Contacts push by stiff springs, and stick by springs along the surface that give way at Coulomb's limit (return mapping), so that what lies still does not creep.
 //!   Contacts of rods with themselves and each other are found by [`between`]. They couple nodes far apart, so that each adds three common unknowns. Those with cloths
-//!   and volumes are found by [`fem::nearby`], and solved with these ([`solve_together`]).
+//!   and volumes are found by [`fem::nearby`], and solved with these ([`solve_system`]).
 //!
 //! # Limits
 //!
@@ -42,7 +42,7 @@ mod material;
 mod newton;
 mod rod;
 mod scheme;
-mod together;
+mod soft_system;
 mod touch;
 
 pub use between::between;
@@ -51,7 +51,7 @@ pub use contact::{Contact, Surface};
 pub use material::Material;
 pub use newton::{Step, solve};
 pub use rod::{Hold, Rod, Target};
-pub use together::{Together, solve_together};
+pub use soft_system::{SoftSystem, solve_system};
 pub use touch::Touch;
 
 use nalgebra::Vector3;

@@ -14,7 +14,7 @@ use crate::elastic::{Elastic, elastic_potential, strains};
 use crate::rod::{Motion, Node, Rod, Target};
 use crate::scheme::Scheme;
 
-/// Gap at which a contact counts as near, in radii.
+/// Distance of surfaces at which a contact counts as near, in radii.
 const NEAR: f64 = 0.5;
 /// Most iterations of Newton's method in a step.
 const MAX_ITERATIONS: usize = 20;
@@ -392,9 +392,9 @@ fn count_calm_steps(
     for contact in contacts {
         let rod = &rods[contact.rod];
         let now = point_on(&rod.now.places, contact.edge, contact.weight);
-        let gap = contact.touch.normal.dot(&(now - contact.touch.point)) - rod.material.radius;
-        let later = placed(contact, bodies, rods, trials, step).gap;
-        if gap.min(later) < NEAR * rod.material.radius {
+        let distance = contact.touch.normal.dot(&(now - contact.touch.point)) - rod.material.radius;
+        let later = placed(contact, bodies, rods, trials, step).distance;
+        if distance.min(later) < NEAR * rod.material.radius {
             rods[contact.rod].calm_steps = 0;
             if let Surface::Rod(other, ..) = contact.surface {
                 rods[other].calm_steps = 0;

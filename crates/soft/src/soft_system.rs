@@ -9,7 +9,7 @@ use crate::rod::Rod;
 use crate::{Step, newton};
 
 /// Everything that is soft.
-pub struct Together<'a> {
+pub struct SoftSystem<'a> {
     /// Rods.
     pub rods: &'a mut Vec<Rod>,
     /// Contacts of rods with each other, bodies and obstacles.
@@ -24,17 +24,17 @@ pub struct Together<'a> {
 ///
 /// Rods that touch no cloth or volume come first, then cloths and volumes, with the rods that touch them. Where there is no solution in finite numbers, things stay where
 /// they are, at rest, and exert nothing.
-pub fn solve_together(all: Together, bodies: &mut [Body], step: Step) -> Vec<Vector6<f64>> {
+pub fn solve_system(all: SoftSystem, bodies: &mut [Body], step: Step) -> Vec<Vector6<f64>> {
     let mut impulses = vec![Vector6::zeros(); bodies.len()];
-    let Together {
+    let SoftSystem {
         rods,
         rod_contacts,
         parts,
         contacts,
     } = all;
     let count = parts.len();
-    let joined = joined(rods.len(), rod_contacts, count, contacts);
-    let [mut free, mut touching] = split(rods, rod_contacts, &joined);
+    let coupled = coupled(rods.len(), rod_contacts, count, contacts);
+    let [mut free, mut touching] = split(rods, rod_contacts, &coupled);
     if !free.rods.is_empty() && newton::solve(&mut free.rods, bodies, &mut free.contacts, step) {
         take_impulses(bodies, &mut impulses);
     }
@@ -62,16 +62,16 @@ fn take_impulses(bodies: &mut [Body], impulses: &mut [Vector6<f64>]) {
 }
 
 /// Which rods touch a cloth or volume, or a rod that does.
-fn joined(
+fn coupled(
     rods: usize,
     rod_contacts: &[Contact],
     parts: usize,
     contacts: &[fem::Contact],
 ) -> Vec<bool> {
-    let mut joined = vec![false; rods];
+    let mut coupled = vec![false; rods];
     for number in contacts.iter().flat_map(fem::Contact::parts) {
         if let Some(rod) = number.checked_sub(parts) {
-            joined[rod] = true;
+            coupled[rod] = true;
         }
     }
     let pair = |contact: &Contact| match contact.surface {
@@ -79,10 +79,10 @@ fn joined(
         _ => None,
     };
     let pairs: Vec<[usize; 2]> = rod_contacts.iter().filter_map(pair).collect();
-    while let Some(pair) = pairs.iter().find(|[a, b]| joined[*a] != joined[*b]) {
-        pair.iter().for_each(|rod| joined[*rod] = true);
+    while let Some(pair) = pairs.iter().find(|[a, b]| coupled[*a] != coupled[*b]) {
+        pair.iter().for_each(|rod| coupled[*rod] = true);
     }
-    joined
+    coupled
 }
 
 /// Some of the rods, with their contacts, in which they are numbered as here.
@@ -100,16 +100,16 @@ impl Group {
     }
 }
 
-/// Those that are not joined, and those that are.
-fn split(rods: &mut Vec<Rod>, contacts: &mut Vec<Contact>, joined: &[bool]) -> [Group; 2] {
+/// Those that are not coupled, and those that are.
+fn split(rods: &mut Vec<Rod>, contacts: &mut Vec<Contact>, coupled: &[bool]) -> [Group; 2] {
     let mut groups = [Group::default(), Group::default()];
     for (number, rod) in rods.drain(..).enumerate() {
-        let group = &mut groups[usize::from(joined[number])];
+        let group = &mut groups[usize::from(coupled[number])];
         group.numbers.push(number);
         group.rods.push(rod);
     }
     for mut contact in contacts.drain(..) {
-        let group = &mut groups[usize::from(joined[contact.rod])];
+        let group = &mut groups[usize::from(coupled[contact.rod])];
         contact.number_rods(|number| group.place(number));
         group.contacts.push(contact);
     }

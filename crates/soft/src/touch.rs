@@ -47,7 +47,7 @@ pub(crate) struct Push {
 /// Where a touch is in a trial.
 pub(crate) struct Placed {
     /// Negative: penetration, metres.
-    pub gap: f64,
+    pub distance: f64,
     /// How far what is soft has moved against what it touches since the beginning of the step.
     pub slip: V3,
     /// N/m
@@ -63,13 +63,13 @@ impl Placed {
 
     /// Largest elongation of the spring along the surface.
     pub(crate) fn limit(&self, touch: &Touch) -> f64 {
-        touch.friction * (-self.gap).max(0.0)
+        touch.friction * (-self.distance).max(0.0)
     }
 
     /// The force for a largest elongation of the spring along the surface; None where the surfaces are apart. A limit that was found while they touched holds on
     /// until the end of the step.
     pub(crate) fn push(&self, touch: &Touch, limit: f64) -> Option<Push> {
-        if self.gap >= 0.0 && limit <= 0.0 {
+        if self.distance >= 0.0 && limit <= 0.0 {
             return None;
         }
         let (normal, stiffness) = (touch.normal, self.stiffness);
@@ -84,7 +84,7 @@ impl Placed {
             let part = limit / length;
             (stick * part, along * (stiffness * part))
         };
-        let depth = (-self.gap).max(0.0);
+        let depth = (-self.distance).max(0.0);
         let pressed = if depth > 0.0 { stiffness } else { 0.0 };
         Some(Push {
             force: (normal * depth - stick) * stiffness,
@@ -95,7 +95,7 @@ impl Placed {
 
     /// The potential, for a largest elongation of the spring along the surface.
     pub(crate) fn potential(&self, touch: &Touch, limit: f64) -> f64 {
-        let depth = (-self.gap).max(0.0);
+        let depth = (-self.distance).max(0.0);
         let length = self.stick(touch).norm();
         let along = if length <= limit {
             0.5 * length * length
@@ -110,9 +110,9 @@ impl Placed {
 mod tests {
     use super::*;
 
-    fn placed(gap: f64, slip: f64) -> Placed {
+    fn placed(distance: f64, slip: f64) -> Placed {
         Placed {
-            gap,
+            distance,
             slip: V3::x() * slip,
             stiffness: 1000.0,
         }
@@ -121,8 +121,8 @@ mod tests {
     #[test]
     fn friction_sticks_up_to_its_limit() {
         let touch = Touch::new(V3::zeros(), V3::z(), 0.5);
-        let push = |gap, slip| {
-            let placed = placed(gap, slip);
+        let push = |distance, slip| {
+            let placed = placed(distance, slip);
             placed.push(&touch, placed.limit(&touch))
         };
         let sticks = push(-1e-3, 4e-4).unwrap();

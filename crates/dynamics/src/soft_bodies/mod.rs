@@ -20,7 +20,7 @@ use rapier3d_f64::prelude::RigidBody;
 use scene::shape::soft::Soft;
 use scene::{Handle, Scene};
 use soft::fem::{self, Deformable};
-use soft::{Contact, Rod, Step, Together, V3, solve_together};
+use soft::{Contact, Rod, Step, SoftSystem, V3, solve_system};
 
 use crate::bodies::{Bodies, Tag};
 use crate::contacts::{ContactResponse, Verdicts};
@@ -163,13 +163,13 @@ impl SoftBodies {
 
     /// The impulses on rigid bodies, which have their velocities after these.
     fn move_parts(&mut self, rigid: &mut [soft::Body], step: Step) -> Vec<Vector6<f64>> {
-        let all = Together {
+        let all = SoftSystem {
             rods: &mut self.ropes.parts,
             rod_contacts: &mut self.ropes.contacts,
             parts: &mut self.bodies.parts,
             contacts: &mut self.bodies.contacts,
         };
-        solve_together(all, rigid, step)
+        solve_system(all, rigid, step)
     }
 
     /// Whether coupled bodies get the velocities with which the soft ones were solved; None: what nothing but impulses changes.

@@ -137,7 +137,7 @@ impl Trial<'_> {
             .sum();
         let apart = at(self.now) - contact.touch.point - moved;
         Placed {
-            gap: contact.touch.normal.dot(&apart) - self.radii[contact.part],
+            distance: contact.touch.normal.dot(&apart) - self.radii[contact.part],
             slip: self.displacement(&spot) - moved,
             stiffness: STIFFNESS * mass / (self.step * self.step),
         }

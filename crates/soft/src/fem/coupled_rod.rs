@@ -19,7 +19,7 @@ use crate::{Step, newton};
 const HELD_STIFFNESS: f64 = 1e6;
 
 /// A rod in a step.
-pub(super) struct JoinedRod {
+pub(super) struct CoupledRod {
     /// Where its nodes begin among all nodes.
     pub start: usize,
     /// Where its angles begin among all angles.
@@ -49,7 +49,7 @@ pub(super) struct RodMatrix<'a> {
     turnings: &'a [Turning],
 }
 
-impl JoinedRod {
+impl CoupledRod {
     pub(super) fn new(rod: &mut Rod, start: usize, first_angle: usize, step: f64) -> Self {
         // What touches something does not look back.
         rod.calm_steps = 0;

@@ -100,13 +100,13 @@ pub fn solve(parts: Parts, bodies: &mut [Body], step: Step) -> bool {
     let mut all: Vec<Contact> = contacts.iter().cloned().chain(of_rods).collect();
     all.iter_mut()
         .for_each(|contact| contact.touch.impulse = V3::zeros());
-    let mut left = Left {
+    let mut remaining = Remaining {
         parts: parts.iter_mut().map(Some).collect(),
         rods: rods.iter_mut().map(Some).collect(),
     };
     let mut are_found = true;
-    for numbers in islands(&left, bodies.len(), &all) {
-        let mut island = Island::taken(numbers, &mut left, bodies, &all);
+    for numbers in islands(&remaining, bodies.len(), &all) {
+        let mut island = Island::taken(numbers, &mut remaining, bodies, &all);
         are_found &= solve_island(&mut island, step);
         island.give_back(bodies, &mut all);
     }
@@ -140,12 +140,12 @@ fn of_rod(contact: &rod_contact::Contact, parts: usize) -> Contact {
 }
 
 /// What is in no island yet.
-struct Left<'a> {
+struct Remaining<'a> {
     parts: Vec<Option<&'a mut Deformable>>,
     rods: Vec<Option<&'a mut Rod>>,
 }
 
-impl<'a> Left<'a> {
+impl<'a> Remaining<'a> {
     fn len(&self) -> usize {
         self.parts.len() + self.rods.len()
     }
@@ -169,8 +169,8 @@ impl<'a> Left<'a> {
 }
 
 /// For each part and rod, and after them for each body, the first one of its island.
-fn roots(left: &Left, bodies: usize, contacts: &[Contact]) -> Vec<usize> {
-    let count = left.len();
+fn roots(remaining: &Remaining, bodies: usize, contacts: &[Contact]) -> Vec<usize> {
+    let count = remaining.len();
     let mut roots: Vec<usize> = (0..count + bodies).collect();
     let mut join = |a: usize, b: usize| {
         let [a, b] = [a, b].map(|mut at| {
@@ -181,7 +181,7 @@ fn roots(left: &Left, bodies: usize, contacts: &[Contact]) -> Vec<usize> {
         });
         roots[a.max(b)] = a.min(b);
     };
-    for (number, holds) in left.holds().enumerate() {
+    for (number, holds) in remaining.holds().enumerate() {
         for hold in holds {
             if let Target::Body(body, _) = hold.target {
                 join(number, count + body);
@@ -203,8 +203,8 @@ fn roots(left: &Left, bodies: usize, contacts: &[Contact]) -> Vec<usize> {
 }
 
 /// The islands, in the order of their first members. A body alone is in none.
-fn islands(left: &Left, bodies: usize, contacts: &[Contact]) -> Vec<Numbers> {
-    let (members, roots) = (left.len(), roots(left, bodies, contacts));
+fn islands(remaining: &Remaining, bodies: usize, contacts: &[Contact]) -> Vec<Numbers> {
+    let (members, roots) = (remaining.len(), roots(remaining, bodies, contacts));
     let mut all: Vec<Numbers> = (0..members).map(|_| Numbers::default()).collect();
     for (number, root) in roots.iter().enumerate() {
         if number < members {
@@ -221,14 +221,19 @@ fn islands(left: &Left, bodies: usize, contacts: &[Contact]) -> Vec<Numbers> {
 }
 
 impl<'a> Island<'a> {
-    fn taken(numbers: Numbers, left: &mut Left<'a>, bodies: &[Body], contacts: &[Contact]) -> Self {
+    fn taken(
+        numbers: Numbers,
+        remaining: &mut Remaining<'a>,
+        bodies: &[Body],
+        contacts: &[Contact],
+    ) -> Self {
         let bodies = numbers.bodies.iter().map(|number| bodies[*number].clone());
         let touching = numbers
             .contacts
             .iter()
             .map(|number| contacts[*number].clone());
         let mut island = Self {
-            members: left.take(&numbers.members),
+            members: remaining.take(&numbers.members),
             bodies: bodies.collect(),
             contacts: touching.collect(),
             numbers,

@@ -24,9 +24,9 @@
 mod bending;
 mod blocks;
 mod contact;
+mod coupled_rod;
 mod gas;
 mod islands;
-mod joined_rod;
 mod material;
 mod membrane;
 mod mesh;

@@ -4,8 +4,8 @@ use nalgebra::Vector6;
 
 use super::Deformable;
 use super::contact::{Contact, Surface, Trial};
+use super::coupled_rod::CoupledRod;
 use super::islands::{Island, Members};
-use super::joined_rod::JoinedRod;
 use super::system::{Coupling, Held, Joined, System, Vector};
 use crate::assembly::lever_map;
 use crate::body::{Body, Unknown};
@@ -60,7 +60,7 @@ struct Solver {
     /// Places at the beginning of the step and in the trial.
     before: Vec<V3>,
     now: Vec<V3>,
-    rods: Vec<JoinedRod>,
+    rods: Vec<CoupledRod>,
     /// Angles of the edges of rods in the trial.
     angles: Vec<f64>,
     unknowns: Vec<Unknown>,
@@ -88,7 +88,7 @@ impl Solver {
         let mut rods = Vec::new();
         let mut angles = Vec::new();
         for rod in &mut members.rods {
-            rods.push(JoinedRod::new(
+            rods.push(CoupledRod::new(
                 rod,
                 all.now.len(),
                 angles.len(),
@@ -185,7 +185,7 @@ impl Solver {
         let parts = parts.map(|(start, part)| (*start, &part.blocks, &part.bending.matrix));
         let system = System {
             parts: parts.collect(),
-            rods: self.rods.iter().map(JoinedRod::matrix).collect(),
+            rods: self.rods.iter().map(CoupledRod::matrix).collect(),
             couplings,
             joined,
             bodies: self.unknowns.iter().map(|body| body.resistance).collect(),

@@ -5,7 +5,7 @@
 use nalgebra::{Cholesky, Const, Matrix3, Matrix3x6, Matrix6, Vector6};
 
 use super::blocks::Blocks;
-use super::joined_rod::RodMatrix;
+use super::coupled_rod::RodMatrix;
 use super::sparse::Sparse;
 use crate::V3;
 use crate::assembly::lever_map;

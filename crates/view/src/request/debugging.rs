@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Members, handle, text};
+use super::members::{Members, handle, text};
 
 /// Breakpoints of a script.
 const MAX_BREAKPOINTS: usize = 1000;

@@ -1,6 +1,7 @@
 //! Requests of pages, from any bytes: each is checked before the simulation's thread sees it.
 
 mod debugging;
+mod members;
 #[cfg(test)]
 mod tests;
 
@@ -9,20 +10,18 @@ use std::sync::Arc;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use capture::{Input, Recorded};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::edit::Files;
 use crate::sample::Following;
 pub(crate) use debugging::{Breakpoint, Debug};
+use members::{
+    Members, bytes, count, factor, files, flag, frame, gesture, handle, handles, is_python,
+    language, others, point, shortened, text, text_up_to,
+};
 
-/// Code and texts of a page, bytes.
-const MAX_TEXT_LENGTH: usize = 100_000;
 /// The text of a script, bytes.
 const MAX_SCRIPT_LENGTH: usize = 4_000_000;
-/// Handles in one request.
-const MAX_HANDLES: usize = 100_000;
-/// Steps of one request.
-const MAX_STEPS: i64 = 1_000_000;
 
 /// What a page asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -301,8 +300,6 @@ impl Request {
     }
 }
 
-type Members = Map<String, Value>;
-
 fn action(members: &Members) -> Result<Action, String> {
     let name = members
         .get("do")
@@ -399,132 +396,4 @@ fn action(members: &Members) -> Result<Action, String> {
         }
         other => return Err(format!("unknown request: {}", shortened(other))),
     })
-}
-
-/// Lua, where nothing is said.
-fn is_python(members: &Members) -> Result<bool, String> {
-    let said = members.get("language").map_or(Some("lua"), Value::as_str);
-    [false, true]
-        .into_iter()
-        .find(|is_python| said == Some(language(*is_python)))
-        .ok_or_else(|| "`language` is `lua` or `python`".to_owned())
-}
-
-const fn language(is_python: bool) -> &'static str {
-    if is_python { "python" } else { "lua" }
-}
-
-/// The number that changes have in common which are one step of undo.
-fn gesture(members: &Members) -> Option<u64> {
-    members.get("gesture").and_then(Value::as_u64)
-}
-
-/// Whether what other pages have done is meant as well.
-fn others(members: &Members) -> bool {
-    members.get("others").and_then(Value::as_bool) != Some(false)
-}
-
-fn shortened(text: &str) -> &str {
-    text.char_indices()
-        .nth(50)
-        .map_or(text, |(end, _)| &text[..end])
-}
-
-fn count(members: &Members) -> Result<i64, String> {
-    let Some(count) = members.get("count") else {
-        return Ok(1);
-    };
-    let is_count = |count: &i64| *count != 0 && (-MAX_STEPS..=MAX_STEPS).contains(count);
-    let count = count.as_i64().filter(is_count);
-    count.ok_or_else(|| format!("`count` is a whole number, 1 to {MAX_STEPS}, or below zero"))
-}
-
-fn frame(members: &Members) -> Result<usize, String> {
-    let frame = members.get("frame").and_then(Value::as_u64);
-    let frame = frame.and_then(|frame| usize::try_from(frame).ok());
-    frame.ok_or_else(|| "`frame` is a whole number, zero or more".to_owned())
-}
-
-fn factor(members: &Members) -> Result<f64, String> {
-    let factor = members.get("factor").and_then(Value::as_f64);
-    let factor = factor.filter(|factor| *factor == 0.0 || (0.001..=100.0).contains(factor));
-    factor.ok_or_else(|| "`factor` is 0, or a number from 0.001 to 100".to_owned())
-}
-
-fn handle(members: &Members) -> Result<i64, String> {
-    members
-        .get("handle")
-        .and_then(Value::as_i64)
-        .ok_or_else(|| "`handle` is a whole number".to_owned())
-}
-
-fn handles(members: &Members) -> Result<Vec<i64>, String> {
-    let wrong = || "`handles` is a list of whole numbers".to_owned();
-    let list = members
-        .get("handles")
-        .and_then(Value::as_array)
-        .ok_or_else(wrong)?;
-    if list.len() > MAX_HANDLES {
-        return Err(format!("`handles` has at most {MAX_HANDLES} items"));
-    }
-    list.iter()
-        .map(Value::as_i64)
-        .collect::<Option<_>>()
-        .ok_or_else(wrong)
-}
-
-fn text(members: &Members, name: &str) -> Result<String, String> {
-    text_up_to(members, name, MAX_TEXT_LENGTH)
-}
-
-fn text_up_to(members: &Members, name: &str, length: usize) -> Result<String, String> {
-    let text = members
-        .get(name)
-        .and_then(Value::as_str)
-        .ok_or_else(|| format!("`{name}` is a text"))?;
-    if text.len() > length {
-        return Err(format!("`{name}` is too long"));
-    }
-    Ok(text.to_owned())
-}
-
-fn flag(members: &Members, name: &str) -> Result<bool, String> {
-    members
-        .get(name)
-        .and_then(Value::as_bool)
-        .ok_or_else(|| format!("`{name}` is true or false"))
-}
-
-/// Three numbers; None where there are none, or null.
-fn point(members: &Members, name: &str) -> Result<Option<[f64; 3]>, String> {
-    let wrong = || format!("`{name}` is a list of 3 numbers");
-    let Some(list) = members.get(name).filter(|list| !list.is_null()) else {
-        return Ok(None);
-    };
-    let numbers: Option<Vec<f64>> = list
-        .as_array()
-        .ok_or_else(wrong)?
-        .iter()
-        .map(Value::as_f64)
-        .collect();
-    let point = numbers.and_then(|numbers| numbers.try_into().ok());
-    point.map(Some).ok_or_else(wrong)
-}
-
-/// Bytes in base64.
-fn bytes(value: Option<&Value>) -> Result<Vec<u8>, String> {
-    let text = value.and_then(Value::as_str);
-    let bytes = text.and_then(|text| BASE64.decode(text).ok());
-    bytes.ok_or_else(|| "`data` is a text in base64".to_owned())
-}
-
-/// The files of a captured request; a page sends them before.
-fn files(members: &Members) -> Result<Arc<Files>, String> {
-    let Some(files) = members.get("files").and_then(Value::as_object) else {
-        return Ok(Arc::default());
-    };
-    let decoded = files
-        .iter()
-        .map(|(name, data)| Ok((name.clone(), bytes(Some(data))?)));
-    decoded.collect::<Result<Files, String>>().map(Arc::new)
 }

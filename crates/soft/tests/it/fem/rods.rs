@@ -2,7 +2,7 @@
 
 use nalgebra::Vector6;
 use soft::fem::{Deformable, Material, nearby};
-use soft::{Body, Hold, Rod, Target, Together, V3, between, solve_together};
+use soft::{Body, Hold, Rod, SoftSystem, Target, V3, between, solve_system};
 
 use super::{hold_at_rest, sheet};
 use crate::{GRAVITY, line, near, rope, step};
@@ -73,13 +73,13 @@ impl World {
         let mut rod_contacts = between(&self.rods, 2e-3, |a, b| (a != b).then_some(0.4));
         soft::Contact::carry_on(&mut rod_contacts, &mut self.rod_contacts);
         self.rod_contacts = rod_contacts;
-        let all = Together {
+        let all = SoftSystem {
             rods: &mut self.rods,
             rod_contacts: &mut self.rod_contacts,
             parts: &mut self.parts,
             contacts: &mut self.contacts,
         };
-        solve_together(all, &mut self.bodies, step(0.005))
+        solve_system(all, &mut self.bodies, step(0.005))
     }
 
     /// The force on what holds the cloth, upwards, newtons.
