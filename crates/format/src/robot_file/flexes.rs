@@ -169,11 +169,6 @@ impl Import<'_> {
             let kind = Kind::Shape(Box::new(made.shape));
             let shape = self.add(alias, kind, frame, carrier)?;
             self.scene.set_soft(shape, &made.soft)?;
-            if flex.link == 0 {
-                // It touches the shapes of the world, as what hangs on that does.
-                let yes = (ValueType::Bool, Data::Bool(true));
-                self.set_custom_data(shape, COLLISION_TREE, yes)?;
-            }
             pin_nodes(self.scene, shape, flex, carrier, frame)?;
             // It touches the ground that it hangs on in the tree; not what moves and carries it.
             if self.is_fixed(flex.link) {
@@ -226,7 +221,7 @@ mod tests {
         let hose = named(&scene, "hose");
         assert!(hose.custom_data.typed(COLLISION_TREE).is_some());
         let net = named(&scene, "net");
-        assert!(net.custom_data.typed(COLLISION_TREE).is_none());
+        assert!(net.custom_data.typed(COLLISION_TREE).is_some());
         let base = net.parent().expect("it is on the body");
         let place = scene
             .world_pose(base)
