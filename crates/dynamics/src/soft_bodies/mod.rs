@@ -20,7 +20,7 @@ use rapier3d_f64::prelude::RigidBody;
 use scene::shape::soft::Soft;
 use scene::{Handle, Scene};
 use soft::fem::{self, Deformable};
-use soft::{Contact, Rod, Step, SoftSystem, V3, solve_system};
+use soft::{Contact, Rod, SoftSystem, Step, V3, solve_system};
 
 use crate::bodies::{Bodies, Tag};
 use crate::contacts::{ContactResponse, Verdicts};

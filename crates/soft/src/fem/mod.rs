@@ -32,6 +32,7 @@ mod membrane;
 mod mesh;
 mod nearby;
 mod newton;
+mod nodes;
 mod part_step;
 mod sparse;
 mod system;

@@ -6,6 +6,7 @@ use super::Deformable;
 use super::contact::{Contact, Surface, Trial};
 use super::coupled_rod::CoupledRod;
 use super::islands::{Island, Members};
+use super::nodes::Nodes;
 use super::system::{Coupling, Held, Joined, System, Vector};
 use crate::assembly::lever_map;
 use crate::body::{Body, Unknown};
@@ -52,17 +53,8 @@ pub(super) fn solve_island(island: &mut Island, step: Step) -> bool {
 
 struct Solver {
     step: Step,
-    /// Where the nodes of each part begin among all, and after these those of each rod.
-    starts: Vec<usize>,
-    masses: Vec<f64>,
-    radii: Vec<f64>,
+    nodes: Nodes,
     held: Vec<Held>,
-    /// Places at the beginning of the step and in the trial.
-    before: Vec<V3>,
-    now: Vec<V3>,
-    rods: Vec<CoupledRod>,
-    /// Angles of the edges of rods in the trial.
-    angles: Vec<f64>,
     unknowns: Vec<Unknown>,
     /// Farthest that a node goes in an iteration, metres.
     longest_way: f64,
@@ -76,59 +68,25 @@ struct Solver {
 
 impl Solver {
     fn new(members: &mut Members, bodies: &[Body], step: Step) -> Self {
-        let mut all = Nodes::default();
-        for part in &members.parts {
-            let moved = part
-                .places
-                .iter()
-                .copied()
-                .zip(part.velocities.iter().copied());
-            all.add(moved, &part.masses, part.material.radius, step.length);
-        }
-        let mut rods = Vec::new();
-        let mut angles = Vec::new();
-        for rod in &mut members.rods {
-            rods.push(CoupledRod::new(
-                rod,
-                all.now.len(),
-                angles.len(),
-                step.length,
-            ));
-            let nodes = rod.now.places.iter().zip(&rod.now.velocities);
-            angles.extend(
-                nodes
-                    .clone()
-                    .map(|(place, velocity)| place.w + velocity.w * step.length),
-            );
-            let masses: Vec<f64> = rod.masses.iter().map(|mass| mass.x).collect();
-            let moved = nodes.map(|(place, velocity)| (place.xyz(), velocity.xyz()));
-            all.add(moved, &masses, rod.material.radius, step.length);
-        }
+        let nodes = Nodes::new(members, step.length);
         let scale = members.scale();
         let unknowns = bodies
             .iter()
             .map(|body| Unknown::new(body, scale, step.length));
         let shortest = members.shortest_edge();
-        let has_rods = !rods.is_empty();
+        let longest_way = match &nodes.rods[..] {
+            [] => f64::INFINITY,
+            _ => LONGEST_WAY * shortest,
+        };
         let mut solver = Self {
             step,
-            radii: all.radii,
-            held: held(members, &all.starts),
-            gradient: Vector::zeros(all.now.len(), angles.len(), bodies.len()),
+            held: held(members, &nodes.starts),
+            gradient: nodes.zeros(bodies.len()),
             unknowns: unknowns.collect(),
-            longest_way: if has_rods {
-                LONGEST_WAY * shortest
-            } else {
-                f64::INFINITY
-            },
+            longest_way,
             enough: TOLERANCE * shortest,
             limits: Vec::new(),
-            starts: all.starts,
-            masses: all.masses,
-            before: all.before,
-            now: all.now,
-            rods,
-            angles,
+            nodes,
         };
         solver.place_held(members, bodies);
         solver
@@ -136,9 +94,9 @@ impl Solver {
 
     /// Puts nodes where what holds them is.
     fn place_held(&mut self, members: &Members, bodies: &[Body]) {
-        for (start, holds) in self.starts.iter().zip(members.holds()) {
+        for (start, holds) in self.nodes.starts.iter().zip(members.holds()) {
             for hold in holds {
-                self.now[start + hold.node] = match hold.target {
+                self.nodes.now[start + hold.node] = match hold.target {
                     Target::Place(place) => place,
                     Target::Body(body, lever) => {
                         bodies[body].com + lever + self.unknowns[body].displacement(&lever)
@@ -181,11 +139,11 @@ impl Solver {
         couplings: Vec<Coupling>,
         joined: Vec<Joined>,
     ) -> Option<Vector> {
-        let parts = self.starts.iter().zip(&members.parts);
+        let parts = self.nodes.starts.iter().zip(&members.parts);
         let parts = parts.map(|(start, part)| (*start, &part.blocks, &part.bending.matrix));
         let system = System {
             parts: parts.collect(),
-            rods: self.rods.iter().map(CoupledRod::matrix).collect(),
+            rods: self.nodes.rods.iter().map(CoupledRod::matrix).collect(),
             couplings,
             joined,
             bodies: self.unknowns.iter().map(|body| body.resistance).collect(),
@@ -216,10 +174,10 @@ impl Solver {
     }
 
     fn apply(&mut self, change: &Vector, part: f64) {
-        for (place, change) in self.now.iter_mut().zip(&change.nodes) {
+        for (place, change) in self.nodes.now.iter_mut().zip(&change.nodes) {
             *place += change * part;
         }
-        for (angle, change) in self.angles.iter_mut().zip(&change.angles) {
+        for (angle, change) in self.nodes.angles.iter_mut().zip(&change.angles) {
             *angle += change * part;
         }
         for (body, change) in self.unknowns.iter_mut().zip(&change.bodies) {
@@ -229,11 +187,11 @@ impl Solver {
 
     fn trial<'a>(&'a self, bodies: &'a [Body]) -> Trial<'a> {
         Trial {
-            starts: &self.starts,
-            masses: &self.masses,
-            radii: &self.radii,
-            before: &self.before,
-            now: &self.now,
+            starts: &self.nodes.starts,
+            masses: &self.nodes.masses,
+            radii: &self.nodes.radii,
+            before: &self.nodes.before,
+            now: &self.nodes.now,
             bodies,
             unknowns: &self.unknowns,
             step: self.step.length,
@@ -248,8 +206,8 @@ impl Solver {
 
     /// The places of a part in the trial.
     fn places(&self, number: usize, part: &Deformable) -> &[V3] {
-        let start = self.starts[number];
-        &self.now[start..start + part.len()]
+        let start = self.nodes.starts[number];
+        &self.nodes.now[start..start + part.len()]
     }
 
     /// What the step minimises.
@@ -259,8 +217,8 @@ impl Solver {
             sum += part.potential(self.places(number, part), self.step);
         }
         let known = self.known(bodies);
-        for (joined, rod) in self.rods.iter().zip(&members.rods) {
-            let trial = joined.trial(rod, &self.now, &self.angles);
+        for (joined, rod) in self.nodes.rods.iter().zip(&members.rods) {
+            let trial = joined.trial(rod, &self.nodes.now, &self.nodes.angles);
             sum += joined.potential(rod, &trial, self.step, &known);
         }
         let trial = self.trial(bodies);
@@ -284,22 +242,22 @@ impl Solver {
         bodies: &[Body],
         contacts: &[Contact],
     ) -> (Vec<Coupling>, Vec<Joined>) {
-        let mut gradient = Vector::zeros(self.now.len(), self.angles.len(), self.unknowns.len());
+        let mut gradient = self.nodes.zeros(self.unknowns.len());
         for (sum, body) in gradient.bodies.iter_mut().zip(&self.unknowns) {
             *sum = body.resistance * (body.moved - body.free);
         }
         let mut joined = Vec::new();
-        for (start, part) in self.starts.iter().zip(&mut members.parts) {
+        for (start, part) in self.nodes.starts.iter().zip(&mut members.parts) {
             let nodes = *start..start + part.len();
-            let places = &self.now[nodes.clone()];
+            let places = &self.nodes.now[nodes.clone()];
             joined.extend(part.linearize(places, self.step, *start, &mut gradient.nodes[nodes]));
         }
         let known = Bodies {
             all: bodies,
             unknowns: &self.unknowns,
         };
-        for (joined, rod) in self.rods.iter_mut().zip(&members.rods) {
-            let trial = joined.trial(rod, &self.now, &self.angles);
+        for (joined, rod) in self.nodes.rods.iter_mut().zip(&members.rods) {
+            let trial = joined.trial(rod, &self.nodes.now, &self.nodes.angles);
             joined.linearize(rod, &trial, self.step, &known, &mut gradient);
         }
         let mut couplings = Vec::new();
@@ -320,17 +278,17 @@ impl Solver {
         let step = self.step.length;
         for (number, part) in members.parts.iter_mut().enumerate() {
             for hold in &mut part.holds {
-                hold.force = self.gradient.nodes[self.starts[number] + hold.node];
+                hold.force = self.gradient.nodes[self.nodes.starts[number] + hold.node];
             }
-            let start = self.starts[number];
-            part.move_to(&self.now[start..start + part.len()], step);
+            let start = self.nodes.starts[number];
+            part.move_to(&self.nodes.now[start..start + part.len()], step);
         }
         let known = Bodies {
             all: bodies,
             unknowns: &self.unknowns,
         };
-        for (joined, rod) in self.rods.into_iter().zip(&mut members.rods) {
-            let trial = joined.trial(rod, &self.now, &self.angles);
+        for (joined, rod) in self.nodes.rods.into_iter().zip(&mut members.rods) {
+            let trial = joined.trial(rod, &self.nodes.now, &self.nodes.angles);
             joined.finish(rod, trial, step, &known, &self.gradient);
         }
         for hold in members.holds().flatten() {
@@ -390,35 +348,6 @@ enum Outcome {
     OnTheWay,
     /// There is no solution in finite numbers.
     Lost,
-}
-
-/// Nodes of all parts and rods.
-#[derive(Default)]
-struct Nodes {
-    starts: Vec<usize>,
-    masses: Vec<f64>,
-    radii: Vec<f64>,
-    before: Vec<V3>,
-    now: Vec<V3>,
-}
-
-impl Nodes {
-    /// Adds those of a part, with their places and velocities.
-    fn add(
-        &mut self,
-        moved: impl Iterator<Item = (V3, V3)>,
-        masses: &[f64],
-        radius: f64,
-        step: f64,
-    ) {
-        self.starts.push(self.before.len());
-        self.masses.extend(masses);
-        self.radii.push(radius);
-        for (place, velocity) in moved {
-            self.before.push(place);
-            self.now.push(place + velocity * step);
-        }
-    }
 }
 
 /// The nodes that are held; a node that is held twice goes with the first holder.
