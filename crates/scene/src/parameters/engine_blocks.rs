@@ -9,6 +9,9 @@ use crate::object::dummy::Dummy;
 use crate::shape::Material;
 use crate::{Data, DynamicsSettings, InertValues};
 
+/// The number of the switches of MuJoCo's scenes. Files in which nobody has written them have a zero there, with which nothing at all would act.
+const MUJOCO_SWITCHES: i64 = 38_018;
+
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]
 pub struct EngineRows {
@@ -72,7 +75,9 @@ pub trait EngineValues {
             }
         }
         for (number, int) in (first_int..).zip(ints) {
-            self.set_number(number, f64::from(*int));
+            if *int != 0 || number != MUJOCO_SWITCHES {
+                self.set_number(number, f64::from(*int));
+            }
         }
     }
 

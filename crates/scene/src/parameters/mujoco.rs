@@ -224,6 +224,10 @@ mod tests {
                 ..Surrounding::default()
             }
         );
+        // A file from before they were written.
+        ints[17] = 0;
+        settings.load_engine(Engine::Mujoco, &reals, &ints);
+        assert!(settings.surrounding().has_gravity);
         ints[17] = 4095 - 0x1 - 0x2 - 0x4 - 0x8 - 0x10 - 0x20 - 0x80;
         settings.load_engine(Engine::Mujoco, &reals, &ints);
         let off = settings.surrounding();
