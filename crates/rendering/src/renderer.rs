@@ -1,5 +1,7 @@
 //! From a world to a picture, in three passes: list what is in view, project its triangles, fill bands of rows.
 
+use std::ops::Range;
+
 use crate::parallel::Workers;
 use crate::projection::chunk::Chunks;
 use crate::projection::owner::{Owner, owners};
@@ -9,11 +11,8 @@ use crate::shading::strip::{Pixels, Strip};
 use crate::shading::visible::Shading;
 use crate::{Camera, Channels, Picture, World};
 
-/// Rows of a strip, at most. The fragments of a strip are in memory at the same time.
-const STRIP_ROWS: usize = 512;
-
-/// Pixels of a strip, at least.
-const STRIP_PIXELS: usize = 2048;
+/// Pixels of a strip, at least and at most: what is known of them stays in the cache of a core while faces are drawn and shaded.
+const STRIP_PIXELS: [usize; 2] = [2048, 40_960];
 
 /// What a thread draws at least: pixels, and chunks of triangles.
 const THREAD_PIXELS: usize = 16_384;
@@ -24,6 +23,7 @@ const THREAD_CHUNKS: usize = 4;
 pub struct Renderer {
     workers: Workers,
     chunks: Chunks,
+    /// One for each part of a picture that has a thread of its own.
     strips: Vec<Strip>,
 }
 
@@ -96,35 +96,48 @@ impl Renderer {
 
 /// Draws and shades all rows.
 fn fill(shading: &Shading, workers: &Workers, strips: &mut Vec<Strip>, picture: &mut Picture) {
-    let [width, height] = picture.resolution.map(numbers::place);
-    let rows = strip_rows([width, height], workers.count());
-    let count = height.div_ceil(rows);
+    let resolution @ [width, height] = picture.resolution.map(numbers::place);
+    let threads = workers.count().min(width * height / THREAD_PIXELS).max(1);
+    let rows = strip_rows(resolution, threads);
+    let parts = parts(picture, rows);
+    let count = if threads == 1 { 1 } else { parts.len() };
     if strips.len() < count {
         strips.resize_with(count, Strip::default);
     }
+    if threads == 1 {
+        for (rows, mut pixels) in parts {
+            strips[0].fill(shading, rows, &mut pixels);
+        }
+        return;
+    }
+    let mut parts: Vec<_> = strips.iter_mut().zip(parts).collect();
+    let least = THREAD_PIXELS.div_ceil(width * rows);
+    workers.for_each(&mut parts, least, |_, (strip, (rows, pixels))| {
+        strip.fill(shading, rows.clone(), pixels);
+    });
+}
+
+/// The rows of each strip, and their pixels.
+fn parts(picture: &mut Picture, rows: usize) -> Vec<(Range<usize>, Pixels<'_>)> {
+    let [width, height] = picture.resolution.map(numbers::place);
     let mut colour = picture.colour.chunks_mut(3 * width * rows);
     let mut depth = picture.depth.chunks_mut(width * rows);
     let mut ids = picture.ids.chunks_mut(width * rows);
-    let parts = strips[..count].iter_mut().map(|strip| {
-        let (colour, depth, ids) = (
-            colour.next().unwrap_or_default(),
-            depth.next().unwrap_or_default(),
-            ids.next().unwrap_or_default(),
-        );
-        (strip, Pixels { colour, depth, ids })
-    });
-    let mut parts: Vec<_> = parts.collect();
-    let least = THREAD_PIXELS.div_ceil(width * rows);
-    workers.for_each(&mut parts, least, |at, (strip, pixels)| {
-        strip.fill(shading, at * rows..height.min((at + 1) * rows), pixels);
-    });
+    let part = |first: usize| {
+        let pixels = Pixels {
+            colour: colour.next().unwrap_or_default(),
+            depth: depth.next().unwrap_or_default(),
+            ids: ids.next().unwrap_or_default(),
+        };
+        (first..height.min(first + rows), pixels)
+    };
+    (0..height).step_by(rows).map(part).collect()
 }
 
 /// How many rows a strip has.
 fn strip_rows([width, height]: [usize; 2], threads: usize) -> usize {
     let strips = if threads == 1 { 1 } else { 4 * threads };
-    height
-        .div_ceil(strips)
-        .max(STRIP_PIXELS.div_ceil(width))
-        .min(STRIP_ROWS)
+    let [least, most] = STRIP_PIXELS;
+    let pixels = (width * height.div_ceil(strips)).clamp(least, most);
+    pixels.div_ceil(width)
 }

@@ -77,8 +77,12 @@ impl Attributes {
             three(|axis| Linear::constant(numbers::single(normal[axis])))
         } else {
             // The columns are what the normal changes by from column to column and from row to row, and its value at the centre.
-            let parts =
-                three(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
+            let part =
+                |i: usize| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]);
+            let parts = match face.is_uniform {
+                true => [Vector3::zeros(), Vector3::zeros(), part(2)],
+                false => three(part),
+            };
             three(|axis| {
                 Linear::new(
                     Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]),

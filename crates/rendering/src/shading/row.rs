@@ -20,7 +20,7 @@ use crate::three::three;
 use crate::{Material, Texture};
 
 /// Number of faces whose attributes are kept from row to row.
-const MAX_CACHED_FACES: usize = 512;
+const MAX_CACHED_FACES: usize = 2048;
 
 /// The pixels of a row while they are shaded, with room for eight more.
 #[derive(Debug, Default)]

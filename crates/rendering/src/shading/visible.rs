@@ -29,6 +29,9 @@ pub struct Run {
     pub face: u32,
 }
 
+/// Pixels that are compared at once: most rows have long runs.
+const STRETCH: usize = 64;
+
 /// Lists the runs of a row, from the left to the right.
 pub fn find_runs(faces: &[u32], runs: &mut Vec<Run>) {
     runs.clear();
@@ -43,8 +46,29 @@ pub fn find_runs(faces: &[u32], runs: &mut Vec<Run>) {
     let Some((_, next)) = faces.split_first() else {
         return;
     };
-    let (blocks, rest) = next.as_chunks::<8>();
-    for (block, next) in blocks.iter().enumerate() {
+    let (stretches, rest) = next.as_chunks::<STRETCH>();
+    for (at, stretch) in stretches.iter().enumerate() {
+        let first = STRETCH * at;
+        if faces[first..first + STRETCH] != *stretch {
+            find_changes(&faces[first..], stretch.as_chunks().0, |at| {
+                end_run(first + at);
+            });
+        }
+    }
+    let first = STRETCH * stretches.len();
+    let (blocks, rest) = rest.as_chunks();
+    find_changes(&faces[first..], blocks, |at| end_run(first + at));
+    for at in faces.len() - rest.len()..faces.len() {
+        if faces[at - 1] != faces[at] {
+            end_run(at);
+        }
+    }
+    end_run(faces.len());
+}
+
+/// Calls `end_run` with each place whose face is another one than that before. `next`: the faces, from the second on.
+fn find_changes(faces: &[u32], next: &[[u32; 8]], mut end_run: impl FnMut(usize)) {
+    for (block, next) in next.iter().enumerate() {
         let own = eight(&faces[8 * block..]);
         let mut changes = !own.simd_eq(u32x8::from(*next)).to_bitmask() & 0xff;
         while changes != 0 {
@@ -52,12 +76,6 @@ pub fn find_runs(faces: &[u32], runs: &mut Vec<Run>) {
             changes &= changes - 1;
         }
     }
-    for at in faces.len() - rest.len()..faces.len() {
-        if faces[at - 1] != faces[at] {
-            end_run(at);
-        }
-    }
-    end_run(faces.len());
 }
 
 fn eight(faces: &[u32]) -> u32x8 {
@@ -116,6 +134,9 @@ mod tests {
             vec![9],
             vec![1, 1, 30, 2],
             vec![7, 1, 1, 8, 16, 3],
+            vec![64, 65, 1],
+            vec![1, 127, 64, 9],
+            vec![200, 7, 130],
         ] {
             let faces: Vec<u32> = (7..)
                 .zip(&lengths)
