@@ -41,17 +41,32 @@ impl Statistics {
         self.sums[channel] += sum;
     }
 
-    /// Intensities are means of red, green and blue, rounded down; the order of their sums is theirs.
+    /// Intensities are means of red, green and blue, rounded down.
     fn add_intensities(&mut self, image: &[u8]) {
-        let (mut least, mut most, mut sum) = (3 * 255, 0, 0);
-        for pixel in image.as_chunks::<3>().0 {
-            let [r, g, b] = pixel.map(u32::from);
-            let total = r + g + b;
-            least = least.min(total);
-            most = most.max(total);
-            sum += total / 3;
+        let (mut smallest, mut largest) = ([u16::MAX; BLOCK], [0; BLOCK]);
+        let mut sums = [0u16; BLOCK];
+        let mut rest = image;
+        // Of the three bytes from any byte of a block on: one in three begins a pixel, but all are computed at once.
+        while let Some(block) = rest.first_chunk::<{ BLOCK + 2 }>() {
+            let level = |at: usize| {
+                let [r, g, b] = [block[at], block[at + 1], block[at + 2]].map(u16::from);
+                (r + g + b) / 3
+            };
+            let levels: [u16; BLOCK] = std::array::from_fn(level);
+            smallest = std::array::from_fn(|at| levels[at].min(smallest[at]));
+            largest = std::array::from_fn(|at| levels[at].max(largest[at]));
+            sums = std::array::from_fn(|at| sums[at] + levels[at]);
+            rest = &rest[BLOCK..];
         }
-        self.add(0, (least / 3) as u8, (most / 3) as u8, sum.into());
+        if rest.len() < image.len() {
+            for at in (0..BLOCK).step_by(3) {
+                self.add(0, smallest[at] as u8, largest[at] as u8, sums[at].into());
+            }
+        }
+        for pixel in rest.as_chunks::<3>().0 {
+            let level = (pixel.iter().map(|level| u32::from(*level)).sum::<u32>() / 3) as u8;
+            self.add(0, level, level, level.into());
+        }
     }
 
     fn add_colours(&mut self, blocks: &[[u8; BLOCK]]) {
@@ -76,20 +91,19 @@ const LANES: usize = 8;
 fn extremes_and_sum(numbers: &[f32]) -> (f32, f32, f64) {
     let (mut smallest, mut largest) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
     let mut sums = [0.0; LANES];
-    for block in numbers.chunks(LANES) {
-        for (at, &number) in block.iter().enumerate() {
-            smallest[at] = if number < smallest[at] {
-                number
-            } else {
-                smallest[at]
-            };
-            largest[at] = if number > largest[at] {
-                number
-            } else {
-                largest[at]
-            };
-            sums[at] += f64::from(number);
-        }
+    let smaller = |a: f32, b: f32| if a < b { a } else { b };
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let (blocks, rest) = numbers.as_chunks::<LANES>();
+    // Whole lists are made anew, which is compiled to a few instructions each.
+    for block in blocks {
+        smallest = std::array::from_fn(|at| smaller(block[at], smallest[at]));
+        largest = std::array::from_fn(|at| larger(block[at], largest[at]));
+        sums = std::array::from_fn(|at| sums[at] + f64::from(block[at]));
+    }
+    for (at, &number) in rest.iter().enumerate() {
+        smallest[at] = smaller(number, smallest[at]);
+        largest[at] = larger(number, largest[at]);
+        sums[at] += f64::from(number);
     }
     (
         smallest.into_iter().fold(f32::INFINITY, f32::min),
