@@ -36,10 +36,19 @@ pub(super) fn forms(
     if let Some(form) = part.primitive.as_ref().and_then(analytic) {
         return vec![(frame * form.0, form.1)];
     }
-    making(part, dynamic)
-        .and_then(|making| made.form_of(&part.mesh, making))
-        .map(|form| vec![(frame, form)])
-        .unwrap_or_default()
+    let made = made_of(part, dynamic)
+        .iter()
+        .find_map(|making| made.form_of(&part.mesh, *making));
+    made.map(|form| vec![(frame, form)]).unwrap_or_default()
+}
+
+/// What may have been made of the mesh of a part: the first of it is its form. What [`making`] finds by the size of the mesh shows in what there is.
+fn made_of(part: &PartForm, dynamic: bool) -> &'static [Making] {
+    match (part.convex, dynamic && part.primitive.is_none()) {
+        (true, _) => &[Making::Hull],
+        (false, true) => &[Making::Pieces, Making::Surface],
+        (false, false) => &[Making::Surface],
+    }
 }
 
 /// The exact form of a primitive, where rapier has one.
@@ -67,15 +76,13 @@ fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
 
 /// What is to be made of the mesh of a part that collides; None where its form is analytic, or there is none.
 pub(super) fn making(part: &PartForm, dynamic: bool) -> Option<Making> {
-    if part.primitive.as_ref().and_then(analytic).is_some()
-        || part.mesh.vertices.len() < 3
-        || !has_size(&part.mesh)
-    {
+    if part.primitive.as_ref().and_then(analytic).is_some() || part.mesh.vertices.len() < 3 {
         return None;
     }
+    let extents = extents(&part.mesh).filter(has_size)?;
     Some(if part.convex {
         Making::Hull
-    } else if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
+    } else if dynamic && part.primitive.is_none() && has_volume(&extents) {
         Making::Pieces
     } else {
         Making::Surface
@@ -97,21 +104,20 @@ pub(super) fn points(mesh: &Mesh) -> Vec<Vector> {
     vertices.map(|&vertex| to_vector(vertex)).collect()
 }
 
+/// Of the box around a mesh, metres.
+fn extents(mesh: &Mesh) -> Option<[f64; 3]> {
+    let (low, high) = mesh.aabb()?;
+    Some([0, 1, 2].map(|axis| high[axis] - low[axis]))
+}
+
 /// Whether the geometry of a mesh can be computed with.
-fn has_size(mesh: &Mesh) -> bool {
-    let extent = |(low, high): ([f64; 3], [f64; 3])| {
-        (0..3)
-            .map(|axis| high[axis] - low[axis])
-            .fold(0.0, f64::max)
-    };
-    mesh.aabb()
-        .is_some_and(|aabb| MESH_SIZES.contains(&extent(aabb)))
+fn has_size(extents: &[f64; 3]) -> bool {
+    MESH_SIZES.contains(&extents.iter().copied().fold(0.0, f64::max))
 }
 
 /// Flat meshes cannot be decomposed.
-fn has_volume(mesh: &Mesh) -> bool {
-    mesh.aabb()
-        .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
+fn has_volume(extents: &[f64; 3]) -> bool {
+    extents.iter().all(|extent| *extent > MIN_THICKNESS)
 }
 
 /// The same forms, but the convex ones as one where several are turned, or where there are many: rapier tests each pair of colliders in each sub-step, and two

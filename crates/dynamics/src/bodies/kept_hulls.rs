@@ -64,11 +64,8 @@ fn triples<T, const N: usize>(
 ) -> Option<Vec<[T; 3]>> {
     let (all, rest) = bytes.split_at_checked(count.checked_mul(3 * N)?)?;
     *bytes = rest;
-    let of = |three: &[u8]| {
-        let mut numbers = three.as_chunks::<N>().0.iter().copied().map(number);
-        Some([numbers.next()?, numbers.next()?, numbers.next()?])
-    };
-    all.chunks_exact(3 * N).map(of).collect()
+    let numbers = all.as_chunks::<N>().0.as_chunks::<3>().0;
+    Some(numbers.iter().map(|three| three.map(number)).collect())
 }
 
 impl Hull {

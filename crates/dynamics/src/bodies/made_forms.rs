@@ -68,15 +68,15 @@ impl Forms {
             .map(|wanted| (&**wanted.mesh, wanted.making, wanted.key))
             .collect();
         for (wanted, form) in missing.into_iter().zip(self.maker.make(&order)) {
-            match wanted.key {
-                Some(key) => keep_recent(key, form.as_ref()),
-                None => self.remember(wanted.mesh, wanted.making, form),
+            if let Some(key) = wanted.key {
+                keep_recent(key, form.as_ref());
             }
+            self.remember(wanted.mesh, wanted.making, form);
         }
-        for wanted in &wanted {
-            if let Some(key) = &wanted.key {
-                let form = recent(key);
-                self.remember(wanted.mesh, wanted.making, form);
+        for Wanted { mesh, making, key } in &wanted {
+            let is_made = self.known.contains_key(&(Rc::as_ptr(mesh), *making));
+            if let Some(key) = key.as_ref().filter(|_| !is_made) {
+                self.remember(mesh, *making, recent(key));
             }
         }
         RECENT.with_borrow_mut(|recent| outside(|| recent.drop_oldest()));

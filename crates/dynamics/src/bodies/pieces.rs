@@ -16,11 +16,12 @@ const ALGORITHM: &str = "convex pieces: parry3d-f64 0.31.1, V-HACD, exact hulls;
 
 /// What the pieces of a mesh depend on.
 pub(super) fn key(mesh: &Mesh) -> Key {
-    let coordinates = mesh.vertices.iter().flatten();
-    let coordinates: Vec<u8> = coordinates.flat_map(|x| x.to_le_bytes()).collect();
-    let corners = mesh.triangles.iter().flatten();
-    let corners: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
-    Key::of(&[ALGORITHM.as_bytes(), &coordinates, &corners])
+    let coordinates = mesh.vertices.as_flattened().iter();
+    let coordinates: Vec<[u8; 8]> = coordinates.map(|x| x.to_le_bytes()).collect();
+    let corners = mesh.triangles.as_flattened().iter();
+    let corners: Vec<[u8; 4]> = corners.map(|corner| corner.to_le_bytes()).collect();
+    let [coordinates, corners] = [coordinates.as_flattened(), corners.as_flattened()];
+    Key::of(&[ALGORITHM.as_bytes(), coordinates, corners])
 }
 
 /// The convex pieces of a mesh; none if it has no inside.

@@ -22,6 +22,8 @@ pub(super) struct MeshFiles {
     warnings: Vec<String>,
     /// The last one, which is often both seen and touched.
     last: Option<(PathBuf, Rc<MeshFile>)>,
+    /// What was made of it last, and how it was stretched.
+    made: Option<(Rc<MeshFile>, [f64; 3], Shape)>,
 }
 
 impl MeshFiles {
@@ -34,6 +36,7 @@ impl MeshFiles {
             permissions: permissions.clone(),
             warnings: Vec::new(),
             last: None,
+            made: None,
         }
     }
 
@@ -57,6 +60,12 @@ impl MeshFiles {
         let path = self.find(name)?;
         let failed = |reason: String| format!("mesh '{}': {reason}", path.display());
         let file = self.read(&path).map_err(failed)?;
+        if let Some((last, factors, shape)) = &self.made
+            && Rc::ptr_eq(last, &file)
+            && *factors == scale
+        {
+            return Ok(copied(shape));
+        }
         let unit = file.unit.unwrap_or(1.0);
         let mut stretched = stretched(&file, scale.map(|factor| factor * unit));
         let imported = ImportedAppearance {
@@ -72,7 +81,11 @@ impl MeshFiles {
                 .iter()
                 .map(|warning| failed(warning.clone())),
         );
-        joined(shapes).map_err(failed)
+        let shape = joined(shapes).map_err(failed)?;
+        // Without textures it is the same whoever asks for it.
+        let is_plain = file.textures.is_empty();
+        self.made = is_plain.then(|| (file, scale, copied(&shape)));
+        Ok(shape)
     }
 
     /// A file, in its own unit of length: as MJCF takes it.
@@ -167,6 +180,15 @@ fn stretched(file: &MeshFile, scale: [f64; 3]) -> MeshFile {
         }
     }
     file
+}
+
+/// The same shape with meshes of its own: the tightest box around a mesh takes longer than all else.
+fn copied(shape: &Shape) -> Shape {
+    let mut copy = shape.clone();
+    for part in &mut copy.parts {
+        part.mesh = Rc::new((*part.mesh).clone());
+    }
+    copy
 }
 
 /// One shape of the parts of a file.
