@@ -3,6 +3,7 @@
 mod circles;
 mod functions;
 mod imports;
+mod outside;
 mod page;
 mod rules;
 
@@ -13,10 +14,8 @@ use imports::{
     code_lines, crate_of, has_word, is_test, module_path, read, relative, rooms_used, root,
     sources, without_tests, without_texts,
 };
-use rules::{
-    FUNCTIONS_FOR_SCRIPTS, INPUTS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, ROOMS,
-    ROOTS_FOR_OTHERS, Rooms, SYSTEM_CALLS,
-};
+use outside::{INPUTS, NO_PERMISSION_NEEDED, SYSTEM_CALLS};
+use rules::{FUNCTIONS_FOR_SCRIPTS, LUA_NAMES, LUA_ROOMS, ROOMS, ROOTS_FOR_OTHERS, Rooms};
 
 #[test]
 fn rooms_use_what_they_may() {

@@ -30,7 +30,7 @@ impl Mechanisms {
         numbers.all(|number| number == Some(first)).then_some(first)
     }
 
-    /// Tells the mechanisms which tendons they have in this sub-step.
+    /// Gives the mechanisms the tendons that they have in this sub-step.
     pub(super) fn add_tendons(
         &mut self,
         tendons: &Tendons,

@@ -202,7 +202,7 @@ fn tendons_have_friction_and_inertia() {
     near(fall(armature), G / 3.0 * 0.125, 0.02);
 }
 
-/// A motor of 6 N on a length that counts a joint half pushes it with 3 N; a script tells it.
+/// A motor of 6 N on a length that counts a joint half pushes it with 3 N; a script sets it.
 #[test]
 fn actuators_pull_at_tendons() {
     let mut bench = Bench::new();

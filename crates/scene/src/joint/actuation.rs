@@ -41,7 +41,7 @@ pub struct Passive {
 /// As text: the kind, then numbers, `position stiffness=100 damping=5 bias=0 lowest=-20 highest=20`; what is not there is 0, a range that is not there has no end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Actuator {
-    /// What a script tells it.
+    /// What a script sets it.
     pub kind: ActuatorKind,
     /// Torque or force per distance from the target position.
     pub stiffness: f64,

@@ -1,6 +1,6 @@
 //! Tendons over bodies and joints of a mechanism: their forces are those for which the mechanism gets the rates that they were found for.
 //!
-//! The mechanism is solved without them, and once more with a small force of each tendon, which tells how rates answer forces. Contacts, limits and motors change that: forces and answers are
+//! The mechanism is solved without them, and once more with a small force of each tendon, which gives the response of rates to forces. Contacts, limits and motors change that: forces and answers are
 //! then improved by Broyden's method (C. G. Broyden, *A class of methods for solving nonlinear simultaneous equations*, 1965).
 
 use articulation::JointState;
