@@ -10,7 +10,7 @@ use test_support::skipped_outside_of_ci;
 use crate::server::{folder, python};
 
 /// These files bound each of their waits; browsers take long to start on a busy machine.
-const LIMIT: Duration = Duration::from_secs(120);
+const LIMIT: Duration = Duration::from_secs(240);
 
 /// Runs one file; it says nothing when all is well.
 pub fn check(file: &str) {
