@@ -51,7 +51,7 @@ impl SoftBodies {
         self.bodies.all.iter().chain(&self.ropes.all).collect()
     }
 
-    /// Pairs of shapes of which one is soft and that may touch in a sub-step of `step` seconds, as far as their boxes tell; what is soft comes first.
+    /// Pairs of shapes of which one is soft and that may touch in a sub-step of `step` seconds, by their boxes; what is soft comes first.
     pub(crate) fn pairs_near(&self, world: &World, step: f64) -> Vec<(Handle, Handle)> {
         let bodies = self.bodies.parts.iter().map(|part| around(part, step));
         let ropes = self.ropes.parts.iter().map(|part| around(part, step));

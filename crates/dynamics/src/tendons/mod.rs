@@ -34,7 +34,7 @@ pub(super) struct Tendon {
     pub plan: TendonPlan,
     /// Shortest and longest length at which the spring exerts no force.
     rest: [f64; 2],
-    /// What scripts tell its actuators: force, length, speed.
+    /// Targets of its actuators, from scripts: force, length, speed.
     targets: [f64; 3],
     /// Whether a mechanism solves it.
     pub is_linked: bool,
@@ -81,10 +81,9 @@ impl Tendons {
         }
     }
 
-    /// Reads what scripts tell the actuators.
+    /// Reads the targets of actuators that scripts set.
     pub(super) fn read_targets(&mut self, scene: &Scene) {
-        let mut told = self.all.iter_mut();
-        while let Some(tendon) = told.find(|tendon| tendon.is_actuated()) {
+        for tendon in self.all.iter_mut().filter(|tendon| tendon.is_actuated()) {
             if let Ok(dummy) = scene.object(tendon.plan.dummy) {
                 tendon.targets = dummy.tendon_targets();
             }

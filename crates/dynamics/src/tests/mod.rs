@@ -13,11 +13,9 @@ mod mujoco;
 mod particles;
 mod random_trees;
 mod roles;
-mod ropes;
 mod sleep;
 mod soft_bodies;
 mod surfaces;
-mod tendons;
 mod tumbling;
 
 use bench::{Bench, STEP, along_y, near};

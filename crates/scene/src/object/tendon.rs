@@ -10,7 +10,7 @@ use crate::{Data, Edit, Field, Handle, Namespace, References, Scene, SceneResult
 
 /// Name of the custom data of a dummy that make it a tendon, and of the references of its path: see [`Tendon`].
 pub const TENDON: &str = "mjcfTendon";
-/// Names of the custom data of a tendon that tell its actuators what to do: a force (N), a length (m) and a speed (m/s); of a tendon over joints in the units of its length.
+/// Names of the custom data of a tendon with the targets of its actuators: a force (N), a length (m) and a speed (m/s); of a tendon over joints in the units of its length.
 pub const TENDON_TARGETS: [&str; 3] = ["targetForce", "targetPosition", "targetVelocity"];
 
 /// A tendon. As text: numbers, `stiffness=100 damping=5 rest=0.1,0.1 range=0,0.5`, then a line for each part of its path: `site=0`, `pulley=2`, `joint=1 factor=0.5`; sites and joints are
@@ -116,7 +116,7 @@ impl Object {
             .unwrap_or_default()
     }
 
-    /// What scripts tell the actuators of a tendon: force, length, speed.
+    /// Targets of the actuators of a tendon, from scripts: force, length, speed.
     pub fn tendon_targets(&self) -> [f64; 3] {
         TENDON_TARGETS.map(|name| {
             let value = self.custom_data.typed(name).map(|(_, value)| value);

@@ -1,6 +1,6 @@
 //! Tendons over bodies and joints of a mechanism: their forces are those for which the mechanism gets the rates that they were found for.
 //!
-//! The mechanism is solved without them, and once more with a small force of each tendon, which gives the response of rates to forces. Contacts, limits and motors change that: forces and answers are
+//! The mechanism is solved without them, and once more with a small force of each tendon, which gives the response of rates to forces. Contacts, limits and motors change that: forces and responses are
 //! then improved by Broyden's method (C. G. Broyden, *A class of methods for solving nonlinear simultaneous equations*, 1965).
 
 use articulation::JointState;
@@ -13,13 +13,13 @@ use crate::tendons::{Layout, Pull, Tendon, Wrench};
 use scene::Handle;
 
 /// How often the forces are improved at most.
-const MAX_ROUNDS: usize = 8;
+const MAX_ITERATIONS: usize = 8;
 /// Forces that give rates nearer than this to those they were found for are right, m/s.
 const RATE_TOLERANCE: f64 = 1e-9;
 /// The same as a fraction of the rate.
 const RELATIVE_TOLERANCE: f64 = 1e-7;
 /// How often the tendons are visited to find forces that fit each other.
-const SWEEPS: usize = 100;
+const MAX_SWEEPS: usize = 100;
 
 /// A tendon of a mechanism in a sub-step.
 pub(super) struct Strand {
@@ -28,7 +28,7 @@ pub(super) struct Strand {
     /// By the index of the body: what a force of 1 N does to it.
     wrenches: Vec<(usize, Vector6<f64>)>,
     /// The rate that an impulse of 1 N s along the joints gives, if nothing but what they move resists, m/s.
-    answer_of_joints: f64,
+    response_of_joints: f64,
     /// The rate by what moves without being of the mechanism, m/s.
     carried: f64,
     pull: Pull,
@@ -63,7 +63,7 @@ impl Linked {
             .iter()
             .map(|(body, wrench)| wrench.dot(&self.input.bodies[*body].motion.velocity));
         let rate = carried + of_joints.sum::<f64>() + of_wrenches.sum::<f64>();
-        let answers = tendon.plan.joints.iter().filter_map(|part| {
+        let responses = tendon.plan.joints.iter().filter_map(|part| {
             let plan = &links.get(part.joint)?.plan;
             let [mass, .., moment] = self.bodies[index(plan.second)?].mass();
             let inertia = if plan.kind == LinkKind::Revolute {
@@ -74,7 +74,7 @@ impl Linked {
             Some(part.factor * part.factor / inertia)
         });
         self.strands.push(Strand {
-            answer_of_joints: answers.sum(),
+            response_of_joints: responses.sum(),
             joints,
             wrenches,
             carried,
@@ -88,7 +88,7 @@ impl Linked {
         self.strands.iter_mut().for_each(Strand::relax);
         self.solve_once(probe);
         let mut free = self.rates();
-        // Forces that do not depend on rates are part of what the others answer.
+        // Forces that do not depend on rates count for the rates of the others.
         let constant = self.strands.iter().zip(&free);
         let constant: Vec<Option<f64>> = constant
             .map(|(strand, rate)| strand.pull.constant_force(*rate))
@@ -126,7 +126,7 @@ impl Linked {
             }
         }
         let mut forces = DVector::zeros(acting.len());
-        for _ in 0..MAX_ROUNDS {
+        for _ in 0..MAX_ITERATIONS {
             let before = forces.clone();
             self.balance(acting, &rates, &response, &mut forces);
             self.set_forces(acting, &forces);
@@ -157,7 +157,7 @@ impl Linked {
         forces: &mut DVector<f64>,
     ) {
         let mut expected = rates.clone();
-        for _ in 0..SWEEPS {
+        for _ in 0..MAX_SWEEPS {
             let mut largest: f64 = 0.0;
             for (place, &number) in acting.iter().enumerate() {
                 let mobility = response[(place, place)].max(0.0);
@@ -202,7 +202,7 @@ impl Linked {
                 .map(|axis| wrench[axis].powi(2) / mass[axis])
                 .sum::<f64>()
         });
-        let mobility = (of_bodies.sum::<f64>() + strand.answer_of_joints) * self.input.step;
+        let mobility = (of_bodies.sum::<f64>() + strand.response_of_joints) * self.input.step;
         if mobility > 0.0 && mobility.is_finite() {
             PROBED_SPEED / mobility
         } else {

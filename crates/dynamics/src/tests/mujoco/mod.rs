@@ -1,5 +1,7 @@
 //! MuJoCo's parameters of the scene, of shapes and of dummies, where it is the selected engine: closed forms.
 
+mod tendons;
+
 use scene::parameters::engine::Engine;
 use scene::shape::{ContactPair, Material, MovingSurface, RespondableMask, SURFACE};
 use scene::{Data, Edit, Namespace, ValueType};

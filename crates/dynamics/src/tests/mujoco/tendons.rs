@@ -1,21 +1,12 @@
 //! Tendons over joints, over points of linked bodies, with pulleys, and between two dummies where MuJoCo is selected: closed forms.
 
 use scene::object::tendon::{TENDON_TARGETS, Tendon, TendonLaw, TendonPart};
-use scene::parameters::engine::Engine;
 use scene::{Data, Edit, Namespace, ValueType};
 
-use super::*;
+use super::super::*;
+use super::mujoco;
 
 const G: f64 = 9.81;
-
-/// A scene for which MuJoCo is selected.
-fn mujoco() -> Bench {
-    let mut bench = Bench::new();
-    bench
-        .scene
-        .modify_settings(|settings| settings.dynamics.engine.engine = Engine::Mujoco);
-    bench
-}
 
 /// A body of that mass on a slider along z, from a base that does not move.
 fn slider(bench: &mut Bench, x: f64, mass: f64) -> (Handle, Handle) {

@@ -1,7 +1,9 @@
 //! Cloths and volumes among bodies and mechanisms.
 
-use super::ropes::pin;
+mod ropes;
+
 use super::*;
+use ropes::pin;
 use scene::shape::soft::body::Body;
 use scene::shape::soft::{Pin, Soft};
 use scene::shape::{Appearance, Material, Shape};

@@ -1,6 +1,6 @@
 //! Ropes among bodies and mechanisms.
 
-use super::*;
+use super::super::*;
 use scene::appearance::colour::Colour;
 use scene::shape::soft::rope::Rope;
 use scene::shape::soft::{Pin, Soft};

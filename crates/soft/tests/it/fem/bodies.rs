@@ -5,7 +5,7 @@ use soft::fem::{Contact, Deformable, Material, Parts, Surface, solve};
 use soft::{Body, Hold, Target, V3};
 
 use super::contacts::on_sphere;
-use super::{block, hold_at_rest, run, sheet, surface_of};
+use super::{block, hold_at_rest, run, sheet, solid};
 use crate::{GRAVITY, near, step, weightless};
 
 /// A ball that falls onto a sheet held at its rim comes to rest there, and the rim bears both.
@@ -112,19 +112,12 @@ fn lumped(points: &[V3], triangles: &[[usize; 3]], density: f64) -> Vec<f64> {
 #[test]
 fn the_same_calls_have_the_same_bits() {
     let result = || {
-        let (points, tetrahedra) = block(V3::new(0.1, 0.1, 0.1), [3, 3, 3]);
+        let mesh = block(V3::new(0.1, 0.1, 0.1), [3, 3, 3]);
         let material = Material {
             damping: 0.001,
             ..Material::solid(1e5, 0.4)
         };
-        let mut part = Deformable::volume(
-            &points,
-            &tetrahedra,
-            &surface_of(&tetrahedra),
-            1000.0,
-            material,
-        )
-        .unwrap();
+        let mut part = solid(mesh, 1000.0, material);
         hold_at_rest(&mut part, |place| place.z > 0.1 - 1e-9);
         run(part, 50).points().to_vec()
     };

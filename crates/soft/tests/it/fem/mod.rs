@@ -5,7 +5,7 @@ mod contacts;
 mod rods;
 mod statics;
 
-use soft::fem::{Deformable, Parts, solve};
+use soft::fem::{Contact, Deformable, Material, Parts, solve};
 use soft::{Hold, Target, V3};
 
 use super::step;
@@ -138,4 +138,35 @@ fn run_under(step: soft::Step, part: Deformable, steps: usize) -> Deformable {
     }
     let [part] = parts;
     part
+}
+
+/// A volume of tetrahedra.
+fn solid(
+    (points, tetrahedra): (Vec<V3>, Vec<[usize; 4]>),
+    density: f64,
+    material: Material,
+) -> Deformable {
+    let surface = surface_of(&tetrahedra);
+    Deformable::volume(&points, &tetrahedra, &surface, density, material).expect("it is a mesh")
+}
+
+/// A sheet of 0.1 by 0.2 m and 1 kg/m2 that hangs from its upper edge, and the number of its triangles.
+fn hanging_sheet(material: Material) -> (Deformable, usize) {
+    let (points, triangles) = sheet([0.1, 0.2], [4, 8]);
+    let upright: Vec<V3> = points.iter().map(|p| V3::new(p.x, 0.0, p.y)).collect();
+    let mut cloth =
+        Deformable::cloth(&upright, &triangles, true, 1.0, material).expect("it is a mesh");
+    hold_at_rest(&mut cloth, |place| place.z > 0.2 - 1e-9);
+    (cloth, triangles.len())
+}
+
+/// A step with contacts that go on from step to step.
+fn run_in_contact(parts: &mut [Deformable], kept: &mut Vec<Contact>, mut contacts: Vec<Contact>) {
+    Contact::carry_on(&mut contacts, kept);
+    assert!(solve(
+        Parts::without_rods(parts, &mut contacts),
+        &mut [],
+        step(0.005)
+    ));
+    *kept = contacts;
 }

@@ -3,22 +3,17 @@
 use soft::V3;
 use soft::fem::{Deformable, Material};
 
-use super::{block, hold_at_rest, run, run_under, sheet, sphere, surface_of};
+use super::{block, hanging_sheet, hold_at_rest, run, run_under, sheet, solid, sphere, surface_of};
 use crate::{GRAVITY, near, step, weightless};
 
 #[test]
 fn a_sheet_is_stretched_by_what_hangs_from_it() {
-    let (points, triangles) = sheet([0.1, 0.2], [4, 8]);
-    // A force along -y is a body force here: gravity acts along z, so the sheet hangs upright.
-    let upright: Vec<V3> = points.iter().map(|p| V3::new(p.x, 0.0, p.y)).collect();
     let material = Material {
         damping: 0.05,
         drag: 2.0,
         ..Material::sheet(1e-3, 1e5, 0.0)
     };
-    let mut cloth = Deformable::cloth(&upright, &triangles, true, 1.0, material).unwrap();
-    hold_at_rest(&mut cloth, |place| place.z > 0.2 - 1e-9);
-    let cloth = run(cloth, 600);
+    let cloth = run(hanging_sheet(material).0, 600);
     // Own weight: w g L^2 / 2 by E t.
     let expected = 1.0 * GRAVITY * 0.2 * 0.2 / 2.0 / (1e5 * 1e-3);
     near(-cloth.points()[2].z, expected, 0.02);
@@ -49,20 +44,13 @@ fn a_strip_bends_as_a_plate() {
 #[test]
 fn a_beam_of_volume_bends_nearly_as_a_beam() {
     for (layers, part) in [(3, 0.3), (6, 0.1)] {
-        let (points, tetrahedra) = block(V3::new(0.2, 0.04, 0.04), [5 * layers, layers, layers]);
+        let mesh = block(V3::new(0.2, 0.04, 0.04), [5 * layers, layers, layers]);
         let material = Material {
             damping: 0.02,
             drag: 2.0,
             ..Material::solid(1e6, 0.0)
         };
-        let mut beam = Deformable::volume(
-            &points,
-            &tetrahedra,
-            &surface_of(&tetrahedra),
-            1000.0,
-            material,
-        )
-        .unwrap();
+        let mut beam = solid(mesh, 1000.0, material);
         hold_at_rest(&mut beam, |place| place.x < 1e-9);
         let beam = run_under(step(0.02), beam, 100);
         let moment = 0.04_f64.powi(4) / 12.0;
@@ -99,44 +87,35 @@ fn a_balloon_bears_its_pressure() {
 
 #[test]
 fn what_is_pulled_too_hard_tears() {
-    let (points, triangles) = sheet([0.1, 0.2], [4, 8]);
-    let upright: Vec<V3> = points.iter().map(|p| V3::new(p.x, 0.0, p.y)).collect();
     let material = Material {
         damping: 0.01,
         strength: 1.5,
         ..Material::sheet(1e-3, 1e6, 0.3)
     };
-    let mut cloth = Deformable::cloth(&upright, &triangles, true, 1.0, material).unwrap();
-    hold_at_rest(&mut cloth, |place| place.z > 0.2 - 1e-9);
+    let (cloth, triangles) = hanging_sheet(material);
     let cloth = run(cloth, 200);
     // The weight below the top row is 1.9 N/m.
-    assert!((0..8).any(|i| cloth.is_torn(triangles.len() - 1 - i)));
+    assert!((0..8).any(|i| cloth.is_torn(triangles - 1 - i)));
     assert!(cloth.points()[0].z < -0.5);
 }
 
 #[test]
 fn what_is_pressed_flat_comes_back() {
-    let (points, tetrahedra) = block(V3::new(0.1, 0.1, 0.1), [3, 3, 3]);
+    let mesh = block(V3::new(0.1, 0.1, 0.1), [3, 3, 3]);
     let material = Material {
         damping: 0.02,
         drag: 1.0,
         ..Material::solid(1e5, 0.3)
     };
-    let mut part = Deformable::volume(
-        &points,
-        &tetrahedra,
-        &surface_of(&tetrahedra),
-        1000.0,
-        material,
-    )
-    .unwrap();
+    let mut part = solid(mesh, 1000.0, material);
     let start = part.enclosed();
     near(start, 1e-3, 1e-9);
-    let flat: Vec<V3> = points
+    let flat: Vec<V3> = part
+        .points()
         .iter()
         .map(|p| V3::new(p.x, p.y, -0.1 * p.z))
         .collect();
-    part.set_motion(&flat, &vec![V3::zeros(); points.len()]);
+    part.set_motion(&flat, &vec![V3::zeros(); flat.len()]);
     near(run(part, 600).enclosed(), start, 0.02);
 }
 
